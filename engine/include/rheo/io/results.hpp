@@ -1,0 +1,32 @@
+// Result files: state.csv and ParaView's .vtu/.pvd.
+//
+// state.csv: node,x,y,ux,uy,vx,vy,w_lambda_x,w_lambda_y,w_mu_x,w_mu_y with 17 significant digits.
+// .vtu: points in the reference position, point data u, v, w_lambda, w_mu (3 components), cell data strain and stress
+// (xx, yy, xy) [Pa].
+//
+// Errors   Error::Kind::file
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rheo/mesh.hpp"
+
+namespace rheo {
+
+struct StateView {  // all n x 2
+  std::span<const double> u, v, w_lambda, w_mu;
+};
+
+void write_state_csv(const std::filesystem::path& file, const Mesh& mesh, const StateView& state);
+void write_vtu(const std::filesystem::path& file, const Mesh& mesh, const StateView& state);
+// The series' index: one line per (time, .vtu file name).
+struct VtuEntry {
+  double t = 0.0;
+  std::string name;
+};
+void write_pvd(const std::filesystem::path& file, const std::vector<VtuEntry>& entries);
+
+}  // namespace rheo

@@ -1,0 +1,49 @@
+// A flat mesh of linear triangles with named groups of edges.
+//
+// Units    points [m], thickness [m]
+// Shapes   points: n nodes; triangles: m x 3 node numbers from 0
+// Errors   prepare: Error::Kind::input, naming the triangle, edge or node
+// Not here mesh files (io/mesh_file.hpp), scenes, materials
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace rheo {
+
+struct Vec2 {
+  double x = 0.0;
+  double y = 0.0;
+  friend bool operator==(const Vec2&, const Vec2&) = default;
+};
+
+using Edge = std::array<int, 2>;
+using Triangle = std::array<int, 3>;
+
+struct Mesh {
+  std::vector<Vec2> points;
+  std::vector<Triangle> triangles;
+  double thickness = 1.0;
+  // Named edges. prepare() adds "boundary": every edge with a triangle on one side only, the interior on its left.
+  std::map<std::string, std::vector<Edge>> edge_groups;
+
+  int node_count() const { return static_cast<int>(points.size()); }
+  int triangle_count() const { return static_cast<int>(triangles.size()); }
+};
+
+// Makes a mesh fit for use: turns clockwise triangles round, adds the group "boundary" and turns every edge of the
+// other groups so that a boundary edge has the interior on its left. Refuses: no triangles, a node number out of
+// range, a triangle with a repeated node or no area, the same triangle twice, an edge with more than two triangles or
+// with two on the same side, a node without a triangle, a non-finite coordinate, a thickness that is not positive and
+// finite, a group edge that is no edge of the mesh. `where` (a file name, say) begins the message when not empty.
+void prepare(Mesh& mesh, const std::string& where = {});
+
+// Twice the signed area is the cross product of two sides; positive when counter-clockwise. [m^2]
+double signed_area(const Mesh& mesh, int triangle);
+
+// Node numbers of some edges, each once, in rising order.
+std::vector<int> nodes_of(const std::vector<Edge>& edges);
+
+}  // namespace rheo

@@ -1,0 +1,12 @@
+// All of the engine's public headers but the file formats (rheo/io/).
+#pragma once
+
+#include "rheo/deformation.hpp"
+#include "rheo/error.hpp"
+#include "rheo/integrator.hpp"
+#include "rheo/material.hpp"
+#include "rheo/mesh.hpp"
+#include "rheo/scene.hpp"
+#include "rheo/shapes.hpp"
+#include "rheo/simulation.hpp"
+#include "rheo/stability.hpp"

@@ -1,0 +1,134 @@
+// Everything that defines a simulation, as plain data: what a scene file holds, after its names are resolved.
+//
+// Units    SI
+// Errors   validate: Error::Kind::input; the text begins with the item's `where`
+// Not here reading files (io/scene_file.hpp); nothing here knows about pictures but the settings a file may carry
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "rheo/material.hpp"
+#include "rheo/mesh.hpp"
+
+namespace rheo {
+
+inline constexpr double forever = std::numeric_limits<double>::infinity();
+
+enum class Axis { both, x, y };
+
+// Active for from <= t < until. [s]
+struct Window {
+  double from = 0.0;
+  double until = forever;
+};
+
+// Holds nodes where they are at window.from.
+struct Fix {
+  std::vector<int> nodes;
+  Axis axis = Axis::both;
+  Window window;
+  std::string where;  // for messages: "beam.toml:23: [[fix]]"
+};
+
+enum class Profile {
+  smooth,  // quintic between keys, at rest at each key (C2)
+  linear,  // the velocity jumps at the keys
+  hermite  // cubic with the given velocities at the keys (C1)
+};
+
+// One row of a prescribed motion: time [s], displacement [m], velocity [m/s] (hermite only).
+struct MoveKey {
+  double t = 0.0;
+  Vec2 u;
+  Vec2 v;
+};
+
+// Prescribed motion: b(t) = u(from) + key(t) - key(from), constant outside the keys.
+struct Move {
+  std::vector<int> nodes;
+  Axis axis = Axis::both;
+  Window window;
+  std::vector<MoveKey> keys;  // at least one, times strictly rising
+  Profile profile = Profile::smooth;
+  std::string where;
+};
+
+// sum of coefficient * u(node, axis) = value, by Baumgarte's stabilisation (equation 4).
+struct ConstraintTerm {
+  int node = 0;
+  Axis axis = Axis::x;  // x or y
+  double coefficient = 0.0;
+};
+struct Constraint {
+  std::vector<ConstraintTerm> terms;
+  double value = 0.0;
+  std::string where;
+};
+
+struct TractionKey {
+  double t = 0.0;
+  Vec2 p;  // [Pa]
+};
+
+// A pressure of fixed direction over the reference length of edges: h l P / 2 to each of an edge's nodes.
+struct Traction {
+  std::vector<Edge> edges;
+  std::vector<TractionKey> keys;  // one: constant; more: linear between, constant outside; times strictly rising
+  Window window;
+  std::string where;
+};
+
+// Mean displacement and total force (reaction + traction) of a group of nodes.
+struct Probe {
+  std::string name;
+  std::vector<int> nodes;
+  std::vector<Edge> edges;  // where the group was given as edges; else empty
+  std::string where;
+};
+
+enum class IntegratorKind { rk4, euler };
+enum class ConstraintMethod {
+  automatic,  // eliminate what can be, Baumgarte for the general ones
+  baumgarte   // equation (4) for all of them
+};
+
+struct TimeSettings {
+  double duration = 0.0;     // [s], > 0, finite
+  double frame_rate = 60.0;  // outputs per second
+  IntegratorKind integrator = IntegratorKind::rk4;
+  double step = 0.0;        // upper bound [s]; 0: a quarter of the stable limit
+  double baumgarte = 20.0;  // omega [1/s]
+  ConstraintMethod constraints = ConstraintMethod::automatic;
+};
+
+enum class ColorBy { w_lambda, w_mu, w, speed, none };
+
+struct PictureSettings {
+  ColorBy color = ColorBy::w_lambda;
+  bool range_auto = true;
+  std::array<double, 2> range{0.0, 1.0};  // where not automatic
+  std::array<int, 2> size{1280, 720};     // pixels
+};
+
+struct Scene {
+  std::string title;
+  Mesh mesh;  // prepared
+  Material material;
+  Vec2 body_acceleration;  // [m/s^2]
+  std::vector<Fix> fixes;
+  std::vector<Move> moves;
+  std::vector<Constraint> constraints;
+  std::vector<Traction> tractions;
+  std::vector<Probe> probes;
+  TimeSettings time;
+  PictureSettings picture;
+  std::vector<std::string> notes;  // remarks of the reader for the user ("12 clockwise triangles turned round")
+};
+
+// Checks values and node numbers; what depends on the active constraints is checked by Simulation's constructor.
+void validate(const Scene& scene);
+
+}  // namespace rheo

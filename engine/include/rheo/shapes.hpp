@@ -1,0 +1,26 @@
+// Meshes of simple outlines.
+//
+// Units    m
+// Errors   Error::Kind::input for sizes and counts that make no mesh
+#pragma once
+
+#include "rheo/mesh.hpp"
+
+namespace rheo {
+
+// How a cell with corners bl, br, tl, tr is cut in two.
+enum class Diagonal {
+  falling,     // (bl, br, tl) (tr, tl, br)
+  rising,      // (bl, br, tr) (bl, tr, tl)
+  alternating  // falling where column + row is even, else rising
+};
+
+// nx x ny nodes over width x height; node = row * nx + column, row 0 at the bottom, column 0 at the left.
+// Edge groups: left, right, bottom, top, boundary.
+Mesh rectangle(Vec2 size, int nx, int ny, Diagonal diagonal = Diagonal::falling);
+
+// A node in the middle (the origin) and 6 k nodes on ring k = 1..rings; ring k begins at node 1 + 3 k (k - 1), on the
+// positive x axis, and runs counter-clockwise. Edge groups: rim, boundary.
+Mesh disk(double radius, int rings);
+
+}  // namespace rheo

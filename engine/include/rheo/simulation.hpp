@@ -1,0 +1,116 @@
+// One scene in motion: fixed steps between events and outputs, energies, reactions, divergence.
+//
+//   u'        = v
+//   M v'      = f - J_lambda w_lambda - J_mu w_mu + A L
+//   A^T v'    = b'' - 2 omega (A^T v - b') - omega^2 (A^T u - b)
+//   w_lambda' = -(lambda_ela / lambda_vis) w_lambda + lambda_ela v
+//   w_mu'     = -(mu_ela / mu_vis) w_mu + mu_ela v
+//
+// Source   Hirai and Tomokuni, eq. (3), (4)
+// Units    u [m], v [m/s], w [Pa m], forces [N], energies [J], time [s]
+// Shapes   u, v, w_lambda, w_mu, reaction: n x 2, node by node (x0, y0, x1, y1, ...)
+// Errors   the constructor: Error::Kind::input (values, contradictory or dependent constraints, a step beyond the stable
+//          limit); advance: a Divergence, never an exception, never a reset
+// Not here files, pictures, threads
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rheo/scene.hpp"
+#include "rheo/stability.hpp"
+
+namespace rheo {
+
+struct Energies {
+  double kinetic = 0.0;     // 1/2 v^T M v
+  double stored = 0.0;      // 1/2 w_l^T J_l w_l / lambda_ela + 1/2 w_m^T J_m w_m / mu_ela
+  double dissipated = 0.0;  // since the start, by a quadrature of the integrator's order
+  double work = 0.0;        // of loads, moving constraints and impulses, since the start, likewise
+};
+
+struct Divergence {
+  double t = 0.0;            // when it was noticed [s]
+  int node = 0;              // the fastest node, or the first with a non-finite number
+  double energy = 0.0;       // kinetic + stored
+  double allowed = 0.0;      // what the start and the work done can explain
+  double stable_step = 0.0;  // the largest stable step of the integrator in use
+};
+
+struct ProbeReading {
+  Vec2 displacement;  // mean over the nodes
+  Vec2 force;         // reaction + traction, summed over the nodes
+};
+
+struct Counters {
+  std::int64_t steps = 0;
+  std::int64_t force_evaluations = 0;  // products with J_lambda and J_mu together count once
+  std::int64_t mass_solves = 0;        // sparse solves with the consistent mass
+  std::int64_t constraint_solves = 0;  // solves for Lagrange multipliers
+  std::int64_t projections = 0;        // velocity jumps where constraints begin
+};
+
+struct SimulationOptions {
+  bool allow_unstable = false;  // run a step beyond the stable limit instead of refusing it
+};
+
+class Simulation {
+ public:
+  explicit Simulation(Scene scene, SimulationOptions options = {});
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+  ~Simulation();
+
+  const Scene& scene() const;
+
+  // The stable limits (over all sets of constraints that the scene goes through) and the largest step that will be used.
+  const Spectrum& spectrum() const;
+  double stable_step() const;
+  double step_bound() const;
+  // Steps from 0 to the scene's duration with outputs at its frame rate. Costs nothing: counted, not run.
+  std::int64_t planned_steps() const;
+
+  double time() const;
+  // Runs to time t >= time(), in equal steps between the events on the way; nullopt when all is well.
+  // After a divergence the state is the one in which it was noticed, and further calls return it again.
+  std::optional<Divergence> advance(double t);
+
+  std::span<const double> u() const;
+  std::span<const double> v() const;
+  std::span<const double> w_lambda() const;  // zeros where lambda_ela = 0
+  std::span<const double> w_mu() const;
+
+  Energies energies() const;
+  // Force of the constraints on the nodes, now (just after an event at this time).
+  std::span<const double> reaction();
+  // Tractions and body force on the nodes, now.
+  std::span<const double> external_force();
+  // Lagrange multipliers of the general constraints, in the scene's order, now.
+  std::span<const double> multipliers();
+  ProbeReading read(const Probe& probe);
+
+  // What acts now, for pictures: indices into scene().tractions with their value [Pa], and nodes held in x and/or y
+  // by fix or move.
+  struct ActiveTraction {
+    int index = 0;
+    Vec2 p;
+  };
+  std::vector<ActiveTraction> active_tractions() const;
+  std::vector<int> held_nodes() const;
+
+  const Counters& counters() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// Outputs of a run: t_k = k / frame_rate for k = 0 .. output_count - 1, the last not after the duration.
+std::int64_t output_count(const TimeSettings& time);
+double output_time(const TimeSettings& time, std::int64_t k);
+
+}  // namespace rheo
