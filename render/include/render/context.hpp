@@ -1,0 +1,33 @@
+// An OpenGL (core 3.3 or later) context without a window, opened with dlopen only when asked for.
+//
+// Errors   std::runtime_error: one line that names what is missing and the Debian package that brings it
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "render/image.hpp"
+
+namespace render {
+
+struct Gl;  // the table of functions, render/src/gl.hpp
+
+enum class Backend {
+  automatic,  // OSMesa where it is installed, else EGL
+  osmesa,
+  egl  // surfaceless: no display
+};
+
+class Context {
+ public:
+  virtual ~Context() = default;
+  virtual const Gl& gl() const = 0;
+  virtual int width() const = 0;
+  virtual int height() const = 0;
+  virtual std::string description() const = 0;  // backend, driver, OpenGL and Mesa versions
+  virtual void make_current() = 0;
+};
+
+std::unique_ptr<Context> open_context(Backend backend, int width, int height);
+
+}  // namespace render

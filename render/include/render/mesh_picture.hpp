@@ -1,0 +1,66 @@
+// Pictures of a deforming mesh: single frames and the sheet of successive shapes.
+//
+// Arrays in, pixels out: a struct of read-only spans, valid during a draw. The renderer knows nothing of where they
+// come from.
+//
+// Units    lengths [m], times [s], tractions [Pa]; the scalar's unit is a text
+// Errors   std::runtime_error with one line (no context, a picture beyond the driver's limit)
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "render/image.hpp"
+
+namespace render {
+
+class Context;
+
+// What stays the same through a sequence; copied by MeshPicture.
+struct MeshLayout {
+  std::span<const double> rest;       // n x 2, reference positions
+  std::span<const int> triangles;     // m x 3
+  std::span<const int> boundary;      // k x 2, interior on the left
+  std::string title;                  // drawn at the top left; may be empty
+  std::string scalar_name;            // "|w_lambda|"; empty: no colour, no colour bar
+  std::string scalar_unit;            // "Pa m"
+  std::array<double, 2> range{0, 1};  // colour range of the whole sequence
+  std::array<double, 4> bounds{};     // x0, y0, x1, y1: what the camera must show, over the whole motion
+  double arrow_scale = 0.0;           // largest |traction| of the sequence [Pa]: gets the longest arrow
+};
+
+struct TractionArrow {
+  std::array<double, 2> at{};      // a point of the deformed edge
+  std::array<double, 2> vector{};  // [Pa]
+};
+
+struct MeshFrame {
+  std::span<const double> positions;  // n x 2, deformed
+  std::span<const double> scalar;     // n, or empty
+  std::span<const int> held;          // nodes that a constraint holds: hatched along boundary edges held at both ends
+  std::span<const TractionArrow> arrows;  // one per loaded edge
+  double time = 0.0;
+};
+
+class MeshPicture {
+ public:
+  // Draws with `context`, which must outlive this; pictures have the context's size.
+  MeshPicture(Context& context, const MeshLayout& layout);
+  ~MeshPicture();
+  MeshPicture(MeshPicture&&) noexcept;
+
+  // One frame with everything: mesh, outline, rest shape, hatches, arrows, colour bar, title, time. `out` is resized
+  // where needed, its memory used again.
+  void draw(const MeshFrame& frame, Image& out);
+
+  // Successive shapes in a grid, each with its time, all at one scale, one colour bar (the paper's Figure 3).
+  Image sheet(std::span<const MeshFrame> frames);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace render
