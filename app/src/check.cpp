@@ -1,0 +1,201 @@
+#include "check.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "failure.hpp"
+#include "option_values.hpp"
+#include "overrides.hpp"
+#include "rheo/deformation.hpp"
+#include "rheo/simulation.hpp"
+
+namespace app {
+namespace {
+
+// At most so many lines of fixes, moves or tractions; the rest is counted.
+constexpr std::size_t most_items = 12;
+
+template <typename... Values>
+void row(const char* name, fmt::format_string<Values...> format, Values&&... values) {
+  fmt::print("  {:<14} {}\n", name, fmt::format(format, std::forward<Values>(values)...));
+}
+
+std::string window_text(const rheo::Window& window) {
+  if (std::isinf(window.until)) return fmt::format("from {:g} s on", window.from);
+  return fmt::format("from {:g} s until {:g} s", window.from, window.until);
+}
+
+const char* axis_text(rheo::Axis axis) {
+  return axis == rheo::Axis::both ? "x and y" : axis == rheo::Axis::x ? "x" : "y";
+}
+
+const char* plural(std::size_t count) {
+  return count == 1 ? "" : "s";
+}
+
+template <typename Items, typename Text>
+void list(const char* name, const Items& items, Text text) {
+  std::size_t shown = 0;
+  for (const auto& item : items) {
+    if (shown == most_items) {
+      row(name, "and {} more", items.size() - shown);
+      return;
+    }
+    row(name, "{}", text(item));
+    ++shown;
+  }
+}
+
+double area_of(const rheo::Mesh& mesh) {
+  double area = 0.0;
+  for (int k = 0; k < mesh.triangle_count(); ++k) area += rheo::signed_area(mesh, k);
+  return area;
+}
+
+std::string branch_text(double ela, double vis, double rate) {
+  if (ela == 0.0) return "off";
+  if (rate == 0.0) return fmt::format("{:g} Pa, never relaxes", ela);
+  return fmt::format("{:g} Pa, {:g} Pa s (relaxation time {:.4g} s)", ela, vis, 1.0 / rate);
+}
+
+void print_mesh(const rheo::Scene& scene) {
+  const rheo::Mesh& mesh = scene.mesh;
+  row("mesh", "{} nodes, {} triangles, {} boundary edges", mesh.node_count(), mesh.triangle_count(),
+      mesh.edge_groups.at("boundary").size());
+  std::string groups;
+  for (const auto& [name, edges] : mesh.edge_groups)
+    groups += fmt::format("{}{} ({})", groups.empty() ? "" : ", ", name, edges.size());
+  row("edge groups", "{}", groups);
+  const double area = area_of(mesh);
+  row("area", "{:.6g} m^2, thickness {:g} m", area, mesh.thickness);
+  const rheo::Material& material = scene.material;
+  row("lambda", "{}", branch_text(material.lambda_ela, material.lambda_vis, material.lambda_rate()));
+  row("mu", "{}", branch_text(material.mu_ela, material.mu_vis, material.mu_rate()));
+  row("mass", "{:.6g} kg ({}), density {:g} kg/m^3", area * mesh.thickness * material.density,
+      material.mass == rheo::Mass::lumped ? "lumped" : "consistent", material.density);
+}
+
+void print_loads(const rheo::Scene& scene) {
+  list("fix", scene.fixes, [](const rheo::Fix& fix) {
+    return fmt::format("{} node{}, {}, {}", fix.nodes.size(), plural(fix.nodes.size()), axis_text(fix.axis),
+                       window_text(fix.window));
+  });
+  list("move", scene.moves, [](const rheo::Move& move) {
+    return fmt::format("{} node{}, {}, {} key{}, {}", move.nodes.size(), plural(move.nodes.size()),
+                       axis_text(move.axis), move.keys.size(), plural(move.keys.size()),
+                       window_text(move.window));
+  });
+  list("constraint", scene.constraints, [](const rheo::Constraint& constraint) {
+    return fmt::format("{} term{} = {:g}", constraint.terms.size(), plural(constraint.terms.size()),
+                       constraint.value);
+  });
+  list("traction", scene.tractions, [](const rheo::Traction& traction) {
+    const std::string value = traction.keys.size() == 1
+                                  ? fmt::format("({:g}, {:g}) Pa", traction.keys[0].p.x, traction.keys[0].p.y)
+                                  : fmt::format("{} keys", traction.keys.size());
+    return fmt::format("{} edge{}, {}, {}", traction.edges.size(), plural(traction.edges.size()), value,
+                       window_text(traction.window));
+  });
+  if (scene.body_acceleration != rheo::Vec2{})
+    row("body force", "acceleration ({:g}, {:g}) m/s^2", scene.body_acceleration.x,
+        scene.body_acceleration.y);
+  list("probe", scene.probes, [](const rheo::Probe& probe) {
+    return fmt::format("{}: {} node{}", probe.name, probe.nodes.size(), plural(probe.nodes.size()));
+  });
+}
+
+std::string stable_text(double step) {
+  if (step <= 0.0) return "none: undamped";
+  if (std::isinf(step)) return "any: nothing oscillates or relaxes";
+  return fmt::format("{:.6g} s", step);
+}
+
+void print_steps(const rheo::Simulation& simulation) {
+  const rheo::Spectrum& spectrum = simulation.spectrum();
+  const rheo::TimeSettings& time = simulation.scene().time;
+  row("omega_max", "{:.6g} rad/s ({} Lanczos steps); by single elements {:.6g} rad/s", spectrum.omega_max,
+      spectrum.lanczos_steps, spectrum.element_bound);
+  for (const auto kind : {rheo::IntegratorKind::rk4, rheo::IntegratorKind::euler})
+    row(fmt::format("stable {}", name_of(kind)).c_str(), "{}",
+        stable_text(rheo::stable_step(spectrum, kind)));
+  row("integrator", "{}", name_of(time.integrator));
+  row("step", "{:.6g} s at most ({})", simulation.step_bound(),
+      time.step > 0.0 ? "as asked" : "auto: a quarter of the stable step");
+  row("steps", "{} in {:g} s", simulation.planned_steps(), time.duration);
+  row("outputs", "{} at {:g} per second", rheo::output_count(time), time.frame_rate);
+}
+
+struct Cost {
+  std::int64_t steps = 0;
+  double seconds_per_step = 0.0;
+  double seconds_per_output = 0.0;
+};
+
+// Some real steps from the start, until there are enough of them and of seconds to be worth a quotient.
+Cost measure(rheo::Simulation& simulation) {
+  using Clock = std::chrono::steady_clock;
+  const auto since = [](Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  constexpr double enough_seconds = 0.1;
+  constexpr std::int64_t chunk = 16, few = 48;
+  const double duration = simulation.scene().time.duration;
+  // The first step pays for cold memory; it is not counted.
+  Cost cost;
+  if (simulation.advance(std::min(simulation.step_bound(), duration))) return cost;
+  const std::int64_t before = simulation.counters().steps;
+  const Clock::time_point start = Clock::now();
+  while (simulation.time() < duration) {
+    const double t =
+        std::min(simulation.time() + static_cast<double>(chunk) * simulation.step_bound(), duration);
+    if (simulation.advance(t)) break;
+    cost.steps = simulation.counters().steps - before;
+    const double passed = since(start);
+    if ((cost.steps >= few && passed > enough_seconds) || passed > 10.0 * enough_seconds) break;
+  }
+  if (cost.steps > 0) cost.seconds_per_step = since(start) / static_cast<double>(cost.steps);
+  const Clock::time_point output_start = Clock::now();
+  rheo::check_linearity(simulation.scene().mesh, simulation.u());
+  simulation.energies();
+  for (const rheo::Probe& probe : simulation.scene().probes) simulation.read(probe);
+  cost.seconds_per_output = since(output_start);
+  return cost;
+}
+
+void print_cost(rheo::Simulation& simulation) {
+  const rheo::Scene& scene = simulation.scene();
+  const Cost cost = measure(simulation);
+  const double outputs = static_cast<double>(rheo::output_count(scene.time));
+  const double seconds = cost.seconds_per_step * static_cast<double>(simulation.planned_steps()) +
+                         cost.seconds_per_output * outputs;
+  if (cost.steps == 0)
+    row("cost", "no forecast: the run is a single step");
+  else
+    row("cost", "forecast {:.3g} s for run, from {} timed steps of {:.3g} s each", seconds, cost.steps,
+        cost.seconds_per_step);
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const double per_node = scene.picture.color == rheo::ColorBy::none ? 8.0 : 12.0;
+  row("memory", "{:.0f} MB; render keeps {:.3g} MB more between its passes",
+      static_cast<double>(usage.ru_maxrss) / 1024.0, outputs * per_node * scene.mesh.node_count() / 1e6);
+}
+
+}  // namespace
+
+void check_scene(const Options& options) {
+  rheo::Simulation simulation(load_scene(options), {.allow_unstable = options.allow_unstable});
+  const rheo::Scene& scene = simulation.scene();
+  fmt::print("{}: {}\n", options.scene.string(), scene.title);
+  for (const std::string& note : scene.notes) fmt::print("  note: {}\n", note);
+  print_mesh(scene);
+  print_loads(scene);
+  print_steps(simulation);
+  print_cost(simulation);
+}
+
+}  // namespace app

@@ -1,0 +1,241 @@
+#include "command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <string_view>
+#include <thread>
+
+#include "failure.hpp"
+#include "nearest.hpp"
+#include "option_values.hpp"
+
+namespace app {
+namespace {
+
+constexpr const char* about =
+    "rheo simulates rheological soft bodies: flat meshes of Maxwell triangles, described by a scene file "
+    "(TOML)\n"
+    "in SI units.";
+
+constexpr const char* exit_codes =
+    "Exit codes:\n"
+    "  0  done\n"
+    "  2  wrong usage or scene: nothing was written\n"
+    "  3  the simulation diverged: when, where and the stable step are named\n"
+    "  4  a file or folder could not be read or written, or no way to draw was found\n"
+    "A failure writes one line to standard error that says what to do.\n";
+
+constexpr const char* examples =
+    "Examples:\n"
+    "  rheo check beam.toml\n"
+    "  rheo run beam.toml -o out/beam --vtu\n"
+    "  rheo render beam.toml --color w_mu --size 1920x1080\n"
+    "  rheo run beam.toml --integrator euler --step 1e-4 --force\n";
+
+constexpr int most_threads = 64;
+constexpr int fewest_shapes = 2;
+constexpr int most_shapes = 64;
+
+// Option texts as they were typed; read after CLI11 has sorted them.
+struct Texts {
+  std::string scene, folder, integrator, step, duration, frame_rate, threads;
+  std::string size, color, range, backend, sheet;
+};
+
+void add_time_options(CLI::App& command, Texts& texts) {
+  const char* group = "Overrides of the scene's [time]";
+  command.add_option("--integrator", texts.integrator, "rk4 or euler")->type_name("NAME")->group(group);
+  command
+      .add_option("--step", texts.step,
+                  "largest step, seconds; every interval between events and outputs is\n"
+                  "divided into equal steps. auto: a quarter of the stable limit")
+      ->type_name("NUMBER|auto")
+      ->group(group);
+  command.add_option("--duration", texts.duration, "seconds to simulate")->type_name("NUMBER")->group(group);
+  command.add_option("--frame-rate", texts.frame_rate, "outputs per second of simulated time")
+      ->type_name("NUMBER")
+      ->group(group);
+  command.add_flag("--allow-unstable", "run a step beyond the stable limit instead of refusing it")
+      ->group(group);
+}
+
+void add_output_options(CLI::App& command, Texts& texts) {
+  const char* group = "Output";
+  command
+      .add_option("-o,--output", texts.folder, "folder of the results; default: out/ and the scene's stem")
+      ->type_name("DIR")
+      ->group(group);
+  command
+      .add_flag("--vtu",
+                "also write a ParaView series into DIR/vtu: u, v, w_lambda, w_mu, strain, stress [Pa]")
+      ->group(group);
+  command.add_flag("--force", "replace what an earlier rheo wrote into DIR; other files there stay")
+      ->group(group);
+  command.add_flag("--quiet", "print nothing unless something fails")->group(group);
+  command
+      .add_option("--threads", texts.threads,
+                  fmt::format("threads that encode frames, 1 to {}; default: as many as processors,\n"
+                              "at most 4. Results never depend on it",
+                              most_threads))
+      ->type_name("N")
+      ->group(group);
+}
+
+void add_picture_options(CLI::App& command, Texts& texts) {
+  const char* group = "Pictures (defaults: the scene's [render])";
+  command.add_option("--size", texts.size, "pixels, each side 16 to 16384, such as 1280x720")
+      ->type_name("WxH")
+      ->group(group);
+  command
+      .add_option("--color", texts.color,
+                  "w_lambda, w_mu, w (both) [Pa m], speed [m/s] or none: magnitude at the nodes")
+      ->type_name("NAME")
+      ->group(group);
+  command
+      .add_option("--range", texts.range, "colour range in that unit, or auto: one for the whole sequence")
+      ->type_name("LOW,HIGH|auto")
+      ->group(group);
+  command
+      .add_option("--backend", texts.backend, "auto, osmesa or egl; auto: OSMesa where installed, else EGL")
+      ->type_name("NAME")
+      ->group(group);
+  command
+      .add_option("--sheet", texts.sheet,
+                  fmt::format("shapes on sheet.png, {} to {}; default: 8 to 12, as suits the run",
+                              fewest_shapes, most_shapes))
+      ->type_name("N")
+      ->group(group);
+}
+
+CLI::App* add_command(CLI::App& program, Texts& texts, const std::string& name,
+                      const std::string& description) {
+  CLI::App* command = program.add_subcommand(name, description);
+  command->add_option("SCENE", texts.scene, "scene file (TOML)")->required()->type_name("");
+  add_time_options(*command, texts);
+  command->footer(fmt::format("{}\n{}", examples, exit_codes));
+  return command;
+}
+
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+// The first word must be a command; CLI11 alone would complain about the words after it.
+void check_first_word(const std::vector<std::string>& words) {
+  if (words.size() < 2)
+    throw Failure(ExitCode::usage,
+                  "no command: use run, render or check with a scene file (see rheo --help)");
+  const std::string& word = words[1];
+  const std::vector<std::string> commands{"run", "render", "check"};
+  if (word.starts_with('-') || std::ranges::find(commands, word) != commands.end()) return;
+  if (word == "view" || word == "bench")
+    throw Failure(ExitCode::usage,
+                  fmt::format("this version ({}) has no command '{}': it has run, render and check",
+                              RHEO_VERSION, word));
+  const std::string close = nearest(word, commands);
+  throw Failure(ExitCode::usage, fmt::format("unknown command '{}': must be run, render or check{}", word,
+                                             close.empty() ? "" : fmt::format("; did you mean {}?", close)));
+}
+
+[[noreturn]] void refuse_extra(const std::string& extra, const CLI::App* command) {
+  const std::string help = command ? fmt::format("rheo {} --help", command->get_name()) : "rheo --help";
+  if (!extra.starts_with('-'))
+    throw Failure(ExitCode::usage,
+                  fmt::format("unexpected '{}': one scene file at a time (see {})", extra, help));
+  const std::string option = extra.substr(0, extra.find('='));
+  const std::string close = command ? nearest(option, option_names(*command)) : "";
+  throw Failure(ExitCode::usage,
+                fmt::format("unknown option '{}'{} (see {})", option,
+                            close.empty() ? "" : fmt::format(", did you mean {}?", close), help));
+}
+
+Options read_values(const Texts& texts, const CLI::App& command) {
+  Options options;
+  const std::string& name = command.get_name();
+  options.command = name == "run" ? Command::run : name == "render" ? Command::render : Command::check;
+  if (texts.scene.empty()) throw Failure(ExitCode::usage, "SCENE '': must be the path of a scene file");
+  options.scene = texts.scene;
+  const auto given = [&](const char* option) {
+    const CLI::Option* found = command.get_option_no_throw(option);
+    return found != nullptr && found->count() > 0;
+  };
+  if (given("--integrator")) options.integrator = integrator_kind("--integrator", texts.integrator);
+  if (given("--step")) options.step = step_value("--step", texts.step);
+  if (given("--duration")) options.duration = positive_number("--duration", texts.duration, "seconds");
+  if (given("--frame-rate"))
+    options.frame_rate = positive_number("--frame-rate", texts.frame_rate, "outputs per second");
+  options.allow_unstable = given("--allow-unstable");
+
+  options.folder = std::filesystem::path("out") / options.scene.stem();
+  if (given("--output")) {
+    if (texts.folder.empty()) throw Failure(ExitCode::usage, "--output '': must be the path of a folder");
+    options.folder = texts.folder;
+  }
+  options.vtu = given("--vtu");
+  options.force = given("--force");
+  options.quiet = given("--quiet");
+  options.threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 4);
+  if (given("--threads")) options.threads = whole_number("--threads", texts.threads, 1, most_threads);
+
+  if (given("--size")) options.size = picture_size("--size", texts.size);
+  if (given("--color")) options.color = color_by("--color", texts.color);
+  if (given("--range")) options.range = color_range("--range", texts.range);
+  if (given("--backend")) options.backend = draw_backend("--backend", texts.backend);
+  if (given("--sheet")) options.sheet = whole_number("--sheet", texts.sheet, fewest_shapes, most_shapes);
+  return options;
+}
+
+}  // namespace
+
+std::optional<Options> read_command_line(int argc, char** argv) {
+  const std::vector<std::string> words(argv, argv + argc);
+  check_first_word(words);
+
+  CLI::App program(about, "rheo");
+  program.set_version_flag("--version", fmt::format("rheo {}", RHEO_VERSION));
+  program.get_formatter()->column_width(34);
+  program.footer(
+      fmt::format("rheo COMMAND --help lists the options of a command.\n\n{}\n{}", examples, exit_codes));
+  Texts texts;
+  CLI::App* run = add_command(program, texts, "run", "simulate; writes state.csv, history.csv and run.json");
+  CLI::App* render = add_command(program, texts, "render",
+                                 "simulate and draw: run's files, frames, sheet.png and residual.png");
+  add_command(program, texts, "check",
+              "read the scene; print sizes, stable steps and a cost forecast; no run");
+  add_output_options(*run, texts);
+  add_output_options(*render, texts);
+  add_picture_options(*render, texts);
+
+  const auto chosen = [&]() -> const CLI::App* {
+    const auto commands = program.get_subcommands();
+    return commands.empty() ? nullptr : commands.front();
+  };
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    fmt::print("{}", program.help());
+    return std::nullopt;
+  } catch (const CLI::CallForVersion& version) {
+    fmt::print("{}\n", version.what());
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    const std::vector<std::string> extras = program.remaining(true);
+    if (!extras.empty()) refuse_extra(extras.front(), chosen());
+    const std::string help = chosen() ? fmt::format("rheo {} --help", chosen()->get_name()) : "rheo --help";
+    throw Failure(ExitCode::usage, fmt::format("{} (see {})", error.what(), help));
+  }
+  if (!chosen())
+    throw Failure(ExitCode::usage,
+                  "no command: use run, render or check with a scene file (see rheo --help)");
+  Options options = read_values(texts, *chosen());
+  options.words = words;
+  return options;
+}
+
+}  // namespace app

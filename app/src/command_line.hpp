@@ -1,0 +1,52 @@
+// The command line as plain data.
+//
+// Errors   Failure(usage), one line that names the option, its value and what is allowed
+// Not here what the options do to a scene (overrides.hpp)
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rheo/scene.hpp"
+
+namespace app {
+
+enum class Command { run, render, check };
+enum class DrawBackend { automatic, osmesa, egl };
+
+struct ColorRange {
+  bool automatic = true;
+  std::array<double, 2> limits{0.0, 1.0};
+};
+
+struct Options {
+  Command command = Command::run;
+  std::filesystem::path scene;
+  std::filesystem::path folder;    // of the outputs
+  std::vector<std::string> words;  // the command line as it was typed
+
+  // Overrides of the scene's [time] and [render]; empty: as the scene says.
+  std::optional<rheo::IntegratorKind> integrator;
+  std::optional<double> step;  // [s]; 0: auto
+  std::optional<double> duration;
+  std::optional<double> frame_rate;
+  std::optional<rheo::ColorBy> color;
+  std::optional<ColorRange> range;
+  std::optional<std::array<int, 2>> size;
+
+  DrawBackend backend = DrawBackend::automatic;
+  int threads = 2;           // encoders of the frame sequence
+  std::optional<int> sheet;  // shapes on the sheet; empty: 8 to 12, as suits the run
+  bool vtu = false;
+  bool force = false;
+  bool allow_unstable = false;
+  bool quiet = false;
+};
+
+// nullopt: help or the version was asked for and printed.
+std::optional<Options> read_command_line(int argc, char** argv);
+
+}  // namespace app

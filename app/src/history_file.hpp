@@ -1,0 +1,36 @@
+// history.csv: one row per output.
+//
+//   t,w_lambda_norm,w_mu_norm,u_max,kinetic,stored,dissipated,work, then NAME_ux,NAME_uy,NAME_fx,NAME_fy per
+//   probe
+//
+// Norms are Euclidean over all nodes, u_max is the largest |u| of a node.
+// Units    s, Pa m, m, J, N
+// Errors   rheo::Error::Kind::file
+#pragma once
+
+#include <vector>
+
+#include "output_sink.hpp"
+#include "rheo/io/atomic_file.hpp"
+
+namespace app {
+
+class HistoryFile : public OutputSink {
+ public:
+  HistoryFile(const std::filesystem::path& file, const rheo::Scene& scene);
+
+  void record(rheo::Simulation& simulation, std::int64_t k) override;
+  // The file appears; without it nothing does.
+  void commit() { file_.commit(); }
+
+  // The columns that residual.png plots.
+  const std::vector<double>& times() const { return times_; }
+  const std::vector<double>& w_lambda_norms() const { return w_lambda_norms_; }
+  const std::vector<double>& w_mu_norms() const { return w_mu_norms_; }
+
+ private:
+  rheo::AtomicFile file_;
+  std::vector<double> times_, w_lambda_norms_, w_mu_norms_;
+};
+
+}  // namespace app

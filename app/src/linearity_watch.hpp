@@ -1,0 +1,30 @@
+// Says once, with time and place, that a state has left what a linear model means: a triangle turned inside
+// out, strain or rotation beyond the limits of rheo/deformation.hpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "output_sink.hpp"
+#include "progress.hpp"
+
+namespace app {
+
+class LinearityWatch : public OutputSink {
+ public:
+  explicit LinearityWatch(Progress& progress) : progress_(progress) {}
+
+  void record(rheo::Simulation& simulation, std::int64_t k) override;
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  void warn(const std::string& text);
+
+  Progress& progress_;
+  bool inverted_ = false;
+  bool strained_ = false;
+  bool rotated_ = false;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace app

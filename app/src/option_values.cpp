@@ -1,0 +1,152 @@
+#include "option_values.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "failure.hpp"
+#include "nearest.hpp"
+
+namespace app {
+namespace {
+
+constexpr int smallest_side = 16;
+constexpr int largest_side = 16384;
+
+[[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& allowed) {
+  throw Failure(ExitCode::usage, fmt::format("{} '{}': {}", option, text, allowed));
+}
+
+template <typename Number>
+std::optional<Number> whole_text(std::string_view text) {
+  if (text.starts_with('+')) text.remove_prefix(1);
+  Number value{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (text.empty() || error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+template <typename Value>
+using Choices = std::vector<std::pair<std::string, Value>>;
+
+const Choices<rheo::IntegratorKind>& integrators() {
+  static const Choices<rheo::IntegratorKind> all{{"rk4", rheo::IntegratorKind::rk4},
+                                                 {"euler", rheo::IntegratorKind::euler}};
+  return all;
+}
+
+const Choices<rheo::ColorBy>& colors() {
+  static const Choices<rheo::ColorBy> all{{"w_lambda", rheo::ColorBy::w_lambda},
+                                          {"w_mu", rheo::ColorBy::w_mu},
+                                          {"w", rheo::ColorBy::w},
+                                          {"speed", rheo::ColorBy::speed},
+                                          {"none", rheo::ColorBy::none}};
+  return all;
+}
+
+const Choices<DrawBackend>& backends() {
+  static const Choices<DrawBackend> all{
+      {"auto", DrawBackend::automatic}, {"osmesa", DrawBackend::osmesa}, {"egl", DrawBackend::egl}};
+  return all;
+}
+
+template <typename Value>
+Value choose(const std::string& option, const std::string& text, const Choices<Value>& choices) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : choices) {
+    if (name == text) return value;
+    names.push_back(name);
+  }
+  const std::string close = nearest(text, names);
+  refuse(option, text,
+         fmt::format("must be one of {}{}", fmt::join(names, ", "),
+                     close.empty() ? "" : fmt::format("; did you mean {}?", close)));
+}
+
+template <typename Value>
+const char* name_in(const Choices<Value>& choices, Value value) {
+  for (const auto& [name, each] : choices)
+    if (each == value) return name.c_str();
+  return "?";
+}
+
+}  // namespace
+
+double positive_number(const std::string& option, const std::string& text, const std::string& unit) {
+  const std::optional<double> value = whole_text<double>(text);
+  if (!value || !std::isfinite(*value) || *value <= 0.0)
+    refuse(option, text, fmt::format("must be a number greater than 0 ({})", unit));
+  return *value;
+}
+
+double step_value(const std::string& option, const std::string& text) {
+  if (text == "auto") return 0.0;
+  const std::optional<double> value = whole_text<double>(text);
+  if (!value || !std::isfinite(*value) || *value <= 0.0)
+    refuse(option, text, "must be auto or a number greater than 0 (seconds)");
+  return *value;
+}
+
+int whole_number(const std::string& option, const std::string& text, int low, int high) {
+  const std::optional<int> value = whole_text<int>(text);
+  if (!value || *value < low || *value > high)
+    refuse(option, text, fmt::format("must be a whole number from {} to {}", low, high));
+  return *value;
+}
+
+std::array<int, 2> picture_size(const std::string& option, const std::string& text) {
+  const std::size_t cross = text.find_first_of("xX");
+  const auto side = [&](std::string_view part) {
+    const std::optional<int> value = whole_text<int>(part);
+    if (!value || *value < smallest_side || *value > largest_side)
+      refuse(option, text,
+             fmt::format("must be WIDTHxHEIGHT in pixels, each from {} to {}, such as 1280x720",
+                         smallest_side, largest_side));
+    return *value;
+  };
+  const std::string_view whole = text;
+  if (cross == std::string::npos) side("");
+  return {side(whole.substr(0, cross)), side(whole.substr(cross + 1))};
+}
+
+ColorRange color_range(const std::string& option, const std::string& text) {
+  if (text == "auto") return {};
+  const std::size_t comma = text.find(',');
+  ColorRange range{.automatic = false};
+  if (comma != std::string::npos) {
+    const auto low = whole_text<double>(std::string_view(text).substr(0, comma));
+    const auto high = whole_text<double>(std::string_view(text).substr(comma + 1));
+    if (low && high && std::isfinite(*low) && std::isfinite(*high) && *low < *high) {
+      range.limits = {*low, *high};
+      return range;
+    }
+  }
+  refuse(option, text, "must be auto or LOW,HIGH: two numbers, LOW less than HIGH, in the colour's unit");
+}
+
+rheo::IntegratorKind integrator_kind(const std::string& option, const std::string& text) {
+  return choose(option, text, integrators());
+}
+
+rheo::ColorBy color_by(const std::string& option, const std::string& text) {
+  return choose(option, text, colors());
+}
+
+DrawBackend draw_backend(const std::string& option, const std::string& text) {
+  return choose(option, text, backends());
+}
+
+const char* name_of(rheo::IntegratorKind kind) {
+  return name_in(integrators(), kind);
+}
+const char* name_of(rheo::ColorBy color) {
+  return name_in(colors(), color);
+}
+
+}  // namespace app

@@ -1,0 +1,26 @@
+// Values of options from their text.
+//
+// Errors   Failure(usage): "--option value: what is allowed"
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "command_line.hpp"
+
+namespace app {
+
+double positive_number(const std::string& option, const std::string& text, const std::string& unit);
+double step_value(const std::string& option, const std::string& text);  // "auto": 0
+int whole_number(const std::string& option, const std::string& text, int low, int high);
+std::array<int, 2> picture_size(const std::string& option, const std::string& text);
+ColorRange color_range(const std::string& option, const std::string& text);
+rheo::IntegratorKind integrator_kind(const std::string& option, const std::string& text);
+rheo::ColorBy color_by(const std::string& option, const std::string& text);
+DrawBackend draw_backend(const std::string& option, const std::string& text);
+
+// The names that the last three accept and that reports use.
+const char* name_of(rheo::IntegratorKind kind);
+const char* name_of(rheo::ColorBy color);
+
+}  // namespace app

@@ -1,0 +1,23 @@
+#include "overrides.hpp"
+
+#include "rheo/io/scene_file.hpp"
+
+namespace app {
+
+rheo::Scene load_scene(const Options& options) {
+  rheo::Scene scene = rheo::read_scene(options.scene);
+  if (options.integrator) scene.time.integrator = *options.integrator;
+  if (options.step) scene.time.step = *options.step;
+  if (options.duration) scene.time.duration = *options.duration;
+  if (options.frame_rate) scene.time.frame_rate = *options.frame_rate;
+  if (options.color) scene.picture.color = *options.color;
+  if (options.size) scene.picture.size = *options.size;
+  if (options.range) {
+    scene.picture.range_auto = options.range->automatic;
+    if (!options.range->automatic) scene.picture.range = options.range->limits;
+  }
+  rheo::validate(scene);
+  return scene;
+}
+
+}  // namespace app

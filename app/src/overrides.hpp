@@ -1,0 +1,14 @@
+// A scene as the command line wants it.
+//
+// Errors   rheo::Error of read_scene and validate
+#pragma once
+
+#include "command_line.hpp"
+#include "rheo/scene.hpp"
+
+namespace app {
+
+// Reads the scene file, puts the options into its [time] and [render], validates the whole.
+rheo::Scene load_scene(const Options& options);
+
+}  // namespace app

@@ -1,0 +1,61 @@
+#include "program.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <new>
+#include <string>
+
+#include "check.hpp"
+#include "command_line.hpp"
+#include "failure.hpp"
+#include "rheo/error.hpp"
+#include "runner.hpp"
+
+namespace app {
+namespace {
+
+// One line whatever a path or a library's text contains.
+int report(ExitCode code, std::string message) {
+  for (char& c : message)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  std::fflush(stdout);
+  fmt::print(stderr, "rheo: {}\n", message);
+  return static_cast<int>(code);
+}
+
+void run_command(int argc, char** argv) {
+  const std::optional<Options> options = read_command_line(argc, argv);
+  if (options) {
+    if (options->command == Command::check)
+      check_scene(*options);
+    else
+      run_scene(*options);
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    throw Failure(ExitCode::file, fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+  try {
+    run_command(argc, argv);
+    return static_cast<int>(ExitCode::done);
+  } catch (const Failure& failure) {
+    return report(failure.code(), failure.what());
+  } catch (const rheo::Error& error) {
+    return report(error.kind() == rheo::Error::Kind::input ? ExitCode::usage : ExitCode::file, error.what());
+  } catch (const std::bad_alloc&) {
+    return report(ExitCode::file, "out of memory: the mesh or the picture is too large for this machine");
+  } catch (const std::exception& error) {
+    // The renderer's errors and the file system's: a missing library, a driver's limit, a full disk.
+    return report(ExitCode::file, error.what());
+  }
+}
+
+}  // namespace app

@@ -1,0 +1,103 @@
+#include "recorder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "rheo/simulation.hpp"
+
+namespace app {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+double length(std::span<const double> field, std::size_t i) {
+  return std::hypot(field[2 * i], field[2 * i + 1]);
+}
+
+double scalar_at(const rheo::Simulation& simulation, rheo::ColorBy color, std::size_t i) {
+  switch (color) {
+    case rheo::ColorBy::w_lambda:
+      return length(simulation.w_lambda(), i);
+    case rheo::ColorBy::w_mu:
+      return length(simulation.w_mu(), i);
+    case rheo::ColorBy::w:
+      return std::hypot(length(simulation.w_lambda(), i), length(simulation.w_mu(), i));
+    case rheo::ColorBy::speed:
+      return length(simulation.v(), i);
+    case rheo::ColorBy::none:
+      break;
+  }
+  return 0.0;
+}
+
+// Numbers of a record: positions and, where something is coloured, the scalar.
+std::size_t record_length(const rheo::Scene& scene) {
+  return scene.mesh.points.size() * (scene.picture.color == rheo::ColorBy::none ? 2 : 3);
+}
+
+}  // namespace
+
+Recorder::Recorder(const rheo::Scene& scene, const std::filesystem::path& folder)
+    : color_(scene.picture.color),
+      nodes_(scene.mesh.points.size()),
+      boundary_nodes_(rheo::nodes_of(scene.mesh.edge_groups.at("boundary"))),
+      store_(folder, record_length(scene), rheo::output_count(scene.time)),
+      record_(record_length(scene)),
+      bounds_{infinite, infinite, -infinite, -infinite},
+      range_{infinite, -infinite} {
+  for (const int node : boundary_nodes_) {
+    const rheo::Vec2& point = scene.mesh.points[static_cast<std::size_t>(node)];
+    include(point.x, point.y);
+  }
+}
+
+void Recorder::record(rheo::Simulation& simulation, std::int64_t) {
+  const std::vector<rheo::Vec2>& rest = simulation.scene().mesh.points;
+  const std::span<const double> u = simulation.u();
+  for (std::size_t i = 0; i < nodes_; ++i) {
+    record_[2 * i] = static_cast<float>(rest[i].x + u[2 * i]);
+    record_[2 * i + 1] = static_cast<float>(rest[i].y + u[2 * i + 1]);
+  }
+  for (const int node : boundary_nodes_) {
+    const auto i = static_cast<std::size_t>(node);
+    include(rest[i].x + u[2 * i], rest[i].y + u[2 * i + 1]);
+  }
+  if (color_ != rheo::ColorBy::none) {
+    for (std::size_t i = 0; i < nodes_; ++i) {
+      const double value = scalar_at(simulation, color_, i);
+      record_[2 * nodes_ + i] = static_cast<float>(value);
+      range_ = {std::min(range_[0], value), std::max(range_[1], value)};
+    }
+  }
+  store_.append(record_);
+
+  RecordedLoads loads{.t = simulation.time(), .tractions = simulation.active_tractions(), .held = {}};
+  std::vector<int> held = simulation.held_nodes();
+  if (!loads_.empty() && *loads_.back().held == held)
+    loads.held = loads_.back().held;
+  else
+    loads.held = std::make_shared<const std::vector<int>>(std::move(held));
+  loads_.push_back(std::move(loads));
+}
+
+void Recorder::read(std::int64_t k, std::vector<double>& positions, std::vector<double>& scalar) const {
+  std::vector<float> record(record_.size());
+  store_.read(k, record);
+  const auto split = record.begin() + static_cast<std::ptrdiff_t>(2 * nodes_);
+  positions.assign(record.begin(), split);
+  scalar.assign(split, record.end());
+}
+
+std::optional<std::array<double, 2>> Recorder::scalar_range() const {
+  if (!(range_[0] <= range_[1])) return std::nullopt;
+  return range_;
+}
+
+void Recorder::include(double x, double y) {
+  bounds_ = {std::min(bounds_[0], x), std::min(bounds_[1], y), std::max(bounds_[2], x),
+             std::max(bounds_[3], y)};
+}
+
+}  // namespace app

@@ -1,0 +1,55 @@
+// Pass 1 of a sequence: what the pictures need of every output, and what they need of all outputs together:
+// the bounds of the motion and the range of the colour, so that frames compare.
+//
+// Shapes   positions n x 2 (deformed), scalar n (or none), float32
+// Errors   those of FrameStore
+// Not here drawing (sequence.hpp)
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "frame_store.hpp"
+#include "output_sink.hpp"
+
+namespace app {
+
+// What acts at one output.
+struct RecordedLoads {
+  double t = 0.0;
+  std::vector<rheo::Simulation::ActiveTraction> tractions;
+  std::shared_ptr<const std::vector<int>> held;  // shared by successive outputs that hold the same nodes
+};
+
+class Recorder : public OutputSink {
+ public:
+  Recorder(const rheo::Scene& scene, const std::filesystem::path& folder);
+
+  void record(rheo::Simulation& simulation, std::int64_t k) override;
+
+  std::int64_t count() const { return store_.count(); }
+  const RecordedLoads& loads(std::int64_t k) const { return loads_[static_cast<std::size_t>(k)]; }
+  // Fills positions (n x 2) and scalar (n; empty where nothing is coloured).
+  void read(std::int64_t k, std::vector<double>& positions, std::vector<double>& scalar) const;
+
+  // x0, y0, x1, y1 over the boundary at rest and at all outputs.
+  const std::array<double, 4>& bounds() const { return bounds_; }
+  // Smallest and largest scalar of all outputs; nullopt where nothing is coloured or recorded.
+  std::optional<std::array<double, 2>> scalar_range() const;
+
+ private:
+  void include(double x, double y);
+
+  rheo::ColorBy color_;
+  std::size_t nodes_;
+  std::vector<int> boundary_nodes_;
+  FrameStore store_;
+  std::vector<RecordedLoads> loads_;
+  std::vector<float> record_;
+  std::array<double, 4> bounds_;
+  std::array<double, 2> range_;
+};
+
+}  // namespace app

@@ -1,0 +1,181 @@
+#include "runner.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "failure.hpp"
+#include "history_file.hpp"
+#include "linearity_watch.hpp"
+#include "option_values.hpp"
+#include "output_folder.hpp"
+#include "overrides.hpp"
+#include "phase_clock.hpp"
+#include "progress.hpp"
+#include "recorder.hpp"
+#include "rheo/io/results.hpp"
+#include "rheo/simulation.hpp"
+#include "run_report.hpp"
+#include "sequence.hpp"
+#include "vtu_series.hpp"
+
+namespace app {
+namespace {
+
+// The file as it is, for run.json; the reader has accepted it a moment ago.
+std::string file_text(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) throw Failure(ExitCode::file, fmt::format("{}: cannot read the scene", path.string()));
+  return text;
+}
+
+struct Sink {
+  OutputSink* sink;
+  double* seconds;  // where its time is booked
+};
+
+struct Passed {
+  std::int64_t outputs = 0;  // completed
+  std::optional<rheo::Divergence> divergence;
+};
+
+// Pass 1: from 0 to the duration, every sink at every output.
+Passed simulate(rheo::Simulation& simulation, const std::vector<Sink>& sinks, Progress& progress,
+                Seconds& seconds) {
+  const rheo::TimeSettings& time = simulation.scene().time;
+  const std::int64_t count = rheo::output_count(time);
+  const auto advance = [&](double t) {
+    const Timed timed(seconds.simulate);
+    return simulation.advance(t);
+  };
+  Passed passed;
+  progress.begin("simulating", count);
+  for (std::int64_t k = 0; k < count; ++k) {
+    passed.divergence = advance(rheo::output_time(time, k));
+    if (passed.divergence) return passed;
+    for (const Sink& each : sinks) {
+      const Timed timed(*each.seconds);
+      each.sink->record(simulation, k);
+    }
+    passed.outputs = k + 1;
+    progress.update(passed.outputs);
+  }
+  // The last output may lie before the duration.
+  passed.divergence = advance(time.duration);
+  progress.end();
+  return passed;
+}
+
+std::string divergence_text(const rheo::Divergence& divergence, const rheo::Simulation& simulation) {
+  const rheo::TimeSettings& time = simulation.scene().time;
+  const rheo::Vec2 at = simulation.scene().mesh.points[static_cast<std::size_t>(divergence.node)];
+  const std::string where =
+      fmt::format("diverged at t = {:.6g} s at node {} (at rest x = {:.4g} m, y = {:.4g} m)", divergence.t,
+                  divergence.node, at.x, at.y);
+  const double used = simulation.step_bound(), stable = divergence.stable_step;
+  if (stable <= 0.0)
+    return fmt::format("{}: no step of {} is stable for this scene, {:.4g} s was used: use --integrator rk4",
+                       where, name_of(time.integrator), used);
+  if (used > stable)
+    return fmt::format(
+        "{}: the step of {:.4g} s is beyond the stable step of {}, {:.4g} s: use --step auto or less "
+        "than that",
+        where, used, name_of(time.integrator), stable);
+  return fmt::format(
+      "{}: the step of {:.4g} s is within the stable step of {}, {:.4g} s: halve it with --step and "
+      "check the scene's loads and motions",
+      where, used, name_of(time.integrator), stable);
+}
+
+// One line a file; frames and .vtu files as one line each.
+void list_files(const OutputFolder& folder, Progress& progress) {
+  const std::vector<std::string>& files = folder.all_made();
+  const auto path = [&](const std::string& name) { return (folder.path() / name).string(); };
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    std::size_t last = i;
+    for (const std::string_view series : {"frames/frame_", "vtu/state_"})
+      while (files[i].starts_with(series) && last + 1 < files.size() && files[last + 1].starts_with(series))
+        ++last;
+    if (last == i)
+      progress.line(path(files[i]));
+    else
+      progress.line(fmt::format("{} ... {} ({} files)", path(files[i]),
+                                files[last].substr(files[last].rfind('/') + 1), last - i + 1));
+    i = last;
+  }
+}
+
+void summarise(const rheo::Counters& counters, const Seconds& seconds, std::int64_t frames,
+               Progress& progress) {
+  progress.line(fmt::format("{} steps, {} force evaluations", counters.steps, counters.force_evaluations));
+  std::string line = fmt::format("seconds: read {:.3f}, build {:.3f}, simulate {:.3f}, write {:.3f}",
+                                 seconds.read, seconds.build, seconds.simulate, seconds.write);
+  if (frames > 0)
+    line += fmt::format(", draw {:.3f}, encode {:.3f} ({:.0f} frames/s)", seconds.draw, seconds.encode,
+                        static_cast<double>(frames) / (seconds.draw + seconds.encode));
+  progress.line(line);
+}
+
+}  // namespace
+
+void run_scene(const Options& options) {
+  Progress progress(options.quiet ? Verbosity::quiet : Verbosity::normal);
+  RunReport report;
+  Seconds& seconds = report.seconds;
+
+  std::optional<Timed> timed(seconds.read);
+  rheo::Scene scene = load_scene(options);
+  report.scene_text = file_text(options.scene);
+  timed.emplace(seconds.build);
+  rheo::Simulation simulation(std::move(scene), {.allow_unstable = options.allow_unstable});
+  timed.emplace(seconds.draw);
+  std::optional<Sequence> sequence;
+  if (options.command == Command::render) sequence.emplace(simulation.scene().picture, options);
+  if (sequence) report.renderer = sequence->description();
+  timed.reset();
+
+  OutputFolder folder(options.folder, options.force ? Replace::earlier_run : Replace::nothing);
+  for (const std::string& note : simulation.scene().notes) progress.line("note: " + note);
+  HistoryFile history(folder.file("history.csv"), simulation.scene());
+  LinearityWatch watch(progress);
+  std::vector<Sink> sinks{{&history, &seconds.write}, {&watch, &seconds.write}};
+  std::optional<VtuSeries> vtu;
+  if (options.vtu) sinks.push_back({&vtu.emplace(folder), &seconds.write});
+  std::optional<Recorder> recorder;
+  if (sequence) sinks.push_back({&recorder.emplace(simulation.scene(), folder.path()), &seconds.write});
+
+  const Passed passed = simulate(simulation, sinks, progress, seconds);
+  progress.end();
+
+  timed.emplace(seconds.write);
+  history.commit();
+  folder.made("history.csv");
+  if (!passed.divergence) {
+    rheo::write_state_csv(folder.file("state.csv"), simulation.scene().mesh,
+                          {simulation.u(), simulation.v(), simulation.w_lambda(), simulation.w_mu()});
+    folder.made("state.csv");
+  }
+  if (vtu) vtu->finish();
+  timed.reset();
+
+  if (sequence) sequence->draw(simulation.scene(), *recorder, history, folder, progress, seconds);
+
+  folder.made("run.json");
+  report.outputs = passed.outputs;
+  report.files = folder.all_made();
+  report.warnings = watch.warnings();
+  report.divergence = passed.divergence;
+  write_run_report(folder.file("run.json"), options, simulation, report);
+
+  list_files(folder, progress);
+  summarise(simulation.counters(), seconds, sequence ? passed.outputs : 0, progress);
+  if (passed.divergence) throw Failure(ExitCode::diverged, divergence_text(*passed.divergence, simulation));
+}
+
+}  // namespace app

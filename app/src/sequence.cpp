@@ -1,0 +1,251 @@
+#include "sequence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "render/context.hpp"
+#include "render/mesh_picture.hpp"
+#include "render/plot.hpp"
+#include "render/png.hpp"
+#include "sheet_frames.hpp"
+
+namespace app {
+namespace {
+
+render::Backend backend_of(DrawBackend backend) {
+  switch (backend) {
+    case DrawBackend::osmesa:
+      return render::Backend::osmesa;
+    case DrawBackend::egl:
+      return render::Backend::egl;
+    case DrawBackend::automatic:
+      break;
+  }
+  return render::Backend::automatic;
+}
+
+struct ScalarText {
+  const char* name;
+  const char* unit;
+};
+
+ScalarText text_of(rheo::ColorBy color) {
+  switch (color) {
+    case rheo::ColorBy::w_lambda:
+      return {"|w_lambda|", "Pa m"};
+    case rheo::ColorBy::w_mu:
+      return {"|w_mu|", "Pa m"};
+    case rheo::ColorBy::w:
+      return {"|w|", "Pa m"};
+    case rheo::ColorBy::speed:
+      return {"speed |v|", "m/s"};
+    case rheo::ColorBy::none:
+      break;
+  }
+  return {"", ""};
+}
+
+// The sum of the active tractions on each loaded edge.
+class LoadedEdges {
+ public:
+  explicit LoadedEdges(const rheo::Scene& scene) {
+    std::map<rheo::Edge, std::size_t> known;
+    for (const rheo::Traction& traction : scene.tractions) {
+      std::vector<std::size_t> slots;
+      for (const auto& [i, j] : traction.edges) {
+        const rheo::Edge edge{std::min(i, j), std::max(i, j)};
+        const auto [at, is_new] = known.try_emplace(edge, edges_.size());
+        if (is_new) edges_.push_back(edge);
+        slots.push_back(at->second);
+      }
+      slots_.push_back(std::move(slots));
+    }
+  }
+
+  std::vector<std::array<double, 2>> sums(const RecordedLoads& loads) const {
+    std::vector<std::array<double, 2>> sums(edges_.size(), {0.0, 0.0});
+    for (const rheo::Simulation::ActiveTraction& active : loads.tractions)
+      for (const std::size_t slot : slots_[static_cast<std::size_t>(active.index)]) {
+        sums[slot][0] += active.p.x;
+        sums[slot][1] += active.p.y;
+      }
+    return sums;
+  }
+
+  // One arrow at the middle of every edge whose tractions do not cancel.
+  std::vector<render::TractionArrow> arrows(const RecordedLoads& loads,
+                                            std::span<const double> positions) const {
+    const std::vector<std::array<double, 2>> all = sums(loads);
+    std::vector<render::TractionArrow> out;
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      if (all[e][0] == 0.0 && all[e][1] == 0.0) continue;
+      const auto i = static_cast<std::size_t>(edges_[e][0]), j = static_cast<std::size_t>(edges_[e][1]);
+      out.push_back({.at = {0.5 * (positions[2 * i] + positions[2 * j]),
+                            0.5 * (positions[2 * i + 1] + positions[2 * j + 1])},
+                     .vector = all[e]});
+    }
+    return out;
+  }
+
+ private:
+  std::vector<rheo::Edge> edges_;
+  std::vector<std::vector<std::size_t>> slots_;  // per traction: numbers into edges_
+};
+
+// A recorded output with its own memory, as the renderer's view of it.
+struct LoadedFrame {
+  std::vector<double> positions, scalar;
+  std::vector<render::TractionArrow> arrows;
+  const RecordedLoads* loads = nullptr;
+
+  void load(const Recorder& recorder, const LoadedEdges& edges, std::int64_t k) {
+    recorder.read(k, positions, scalar);
+    loads = &recorder.loads(k);
+    arrows = edges.arrows(*loads, positions);
+  }
+
+  render::MeshFrame view() const {
+    return {
+        .positions = positions, .scalar = scalar, .held = *loads->held, .arrows = arrows, .time = loads->t};
+  }
+};
+
+double largest_traction(const Recorder& recorder, const LoadedEdges& edges) {
+  double largest = 0.0;
+  for (std::int64_t k = 0; k < recorder.count(); ++k)
+    for (const auto& [x, y] : edges.sums(recorder.loads(k))) largest = std::max(largest, std::hypot(x, y));
+  return largest;
+}
+
+std::array<double, 2> colour_range(const rheo::PictureSettings& picture, const Recorder& recorder) {
+  if (!picture.range_auto) return picture.range;
+  std::array<double, 2> range = recorder.scalar_range().value_or(std::array<double, 2>{0.0, 1.0});
+  // Nothing moved: any width will do, and the picture is all of the lowest colour.
+  if (!(range[1] > range[0])) range[1] = range[0] + (range[0] != 0.0 ? std::abs(range[0]) : 1.0);
+  return range;
+}
+
+std::vector<double> flat(const std::vector<rheo::Vec2>& points) {
+  std::vector<double> out;
+  out.reserve(2 * points.size());
+  for (const rheo::Vec2& point : points) out.insert(out.end(), {point.x, point.y});
+  return out;
+}
+
+template <typename Rows>
+std::vector<int> flat_numbers(const Rows& rows) {
+  std::vector<int> out;
+  for (const auto& row : rows) out.insert(out.end(), row.begin(), row.end());
+  return out;
+}
+
+}  // namespace
+
+struct Sequence::Impl {
+  std::unique_ptr<render::Context> context;
+  int threads = 1;
+  std::optional<int> shapes;
+
+  void draw_frames(render::MeshPicture& picture, const Recorder& recorder, const LoadedEdges& edges,
+                   OutputFolder& folder, Progress& progress, Seconds& seconds) const {
+    render::PngSequence png(threads);
+    LoadedFrame frame;
+    progress.begin("drawing", recorder.count());
+    for (std::int64_t k = 0; k < recorder.count(); ++k) {
+      render::Image image = png.recycle();
+      {
+        const Timed timed(seconds.draw);
+        frame.load(recorder, edges, k);
+        picture.draw(frame.view(), image);
+      }
+      const Timed timed(seconds.encode);
+      png.submit(std::move(image), folder.file(frame_name(k)));
+      progress.update(k + 1);
+    }
+    {
+      const Timed timed(seconds.encode);
+      png.finish();
+    }
+    for (std::int64_t k = 0; k < recorder.count(); ++k) folder.made(frame_name(k));
+    progress.end();
+  }
+
+  void draw_sheet(const rheo::Scene& scene, render::MeshPicture& picture, const Recorder& recorder,
+                  const LoadedEdges& edges, OutputFolder& folder, Seconds& seconds) const {
+    std::vector<LoadedFrame> frames;
+    std::vector<render::MeshFrame> views;
+    render::Image image;
+    {
+      const Timed timed(seconds.draw);
+      for (const std::int64_t k :
+           sheet_frames(recorder.count(), scene.time.frame_rate, event_times(scene), shapes))
+        frames.emplace_back().load(recorder, edges, k);
+      for (const LoadedFrame& frame : frames) views.push_back(frame.view());
+      image = picture.sheet(views);
+    }
+    const Timed timed(seconds.encode);
+    render::write_png(folder.file("sheet.png"), image);
+    folder.made("sheet.png");
+  }
+
+  void draw_residual(const rheo::Scene& scene, const HistoryFile& history, OutputFolder& folder,
+                     Seconds& seconds) const {
+    render::Plot plot;
+    plot.title = scene.title.empty() ? "Residual forces" : scene.title + ": residual forces";
+    plot.x_label = "t [s]";
+    plot.y_label = "norm over all nodes [Pa m]";
+    plot.series.push_back({.name = "|w_lambda|", .x = history.times(), .y = history.w_lambda_norms()});
+    plot.series.push_back({.name = "|w_mu|", .x = history.times(), .y = history.w_mu_norms()});
+    for (const double t : event_times(scene))
+      if (t <= history.times().back()) plot.marks.push_back(t);
+    render::Image image;
+    {
+      const Timed timed(seconds.draw);
+      image = render::draw_plot(*context, plot);
+    }
+    const Timed timed(seconds.encode);
+    render::write_png(folder.file("residual.png"), image);
+    folder.made("residual.png");
+  }
+};
+
+Sequence::Sequence(const rheo::PictureSettings& picture, const Options& options) : impl_(new Impl) {
+  impl_->context = render::open_context(backend_of(options.backend), picture.size[0], picture.size[1]);
+  impl_->threads = options.threads;
+  impl_->shapes = options.sheet;
+}
+
+Sequence::~Sequence() = default;
+
+std::string Sequence::description() const {
+  return impl_->context->description();
+}
+
+void Sequence::draw(const rheo::Scene& scene, const Recorder& recorder, const HistoryFile& history,
+                    OutputFolder& folder, Progress& progress, Seconds& seconds) {
+  if (recorder.count() == 0) return;
+  const std::vector<double> rest = flat(scene.mesh.points);
+  const std::vector<int> triangles = flat_numbers(scene.mesh.triangles);
+  const std::vector<int> boundary = flat_numbers(scene.mesh.edge_groups.at("boundary"));
+  const LoadedEdges edges(scene);
+  const ScalarText scalar = text_of(scene.picture.color);
+  const render::MeshLayout layout{.rest = rest,
+                                  .triangles = triangles,
+                                  .boundary = boundary,
+                                  .title = scene.title,
+                                  .scalar_name = scalar.name,
+                                  .scalar_unit = scalar.unit,
+                                  .range = colour_range(scene.picture, recorder),
+                                  .bounds = recorder.bounds(),
+                                  .arrow_scale = largest_traction(recorder, edges)};
+  render::MeshPicture picture(*impl_->context, layout);
+  impl_->draw_frames(picture, recorder, edges, folder, progress, seconds);
+  impl_->draw_sheet(scene, picture, recorder, edges, folder, seconds);
+  impl_->draw_residual(scene, history, folder, seconds);
+}
+
+}  // namespace app

@@ -1,0 +1,39 @@
+// Pass 2 of a sequence: frames, the sheet of successive shapes and the plot of the residual forces.
+//
+// The graphics library is loaded by the constructor, before anything is simulated or written, so that a
+// machine which cannot draw says so at once.
+//
+// Errors   std::runtime_error and render::FileError of the renderer: one line each; Failure(usage) in a build
+// without it
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "command_line.hpp"
+#include "history_file.hpp"
+#include "output_folder.hpp"
+#include "phase_clock.hpp"
+#include "progress.hpp"
+#include "recorder.hpp"
+
+namespace app {
+
+class Sequence {
+ public:
+  Sequence(const rheo::PictureSettings& picture, const Options& options);
+  ~Sequence();
+
+  // Backend, driver and versions.
+  std::string description() const;
+  // All recorded outputs as DIR/frames/..., then DIR/sheet.png and DIR/residual.png.
+  void draw(const rheo::Scene& scene, const Recorder& recorder, const HistoryFile& history,
+            OutputFolder& folder, Progress& progress, Seconds& seconds);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace app
