@@ -1,0 +1,269 @@
+#include "constraints.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "motion.hpp"
+#include "rheo/error.hpp"
+#include "timeline.hpp"
+
+namespace rheo {
+namespace {
+
+constexpr double schur_memory_limit = 4e9;  // bytes
+
+// A pivot of the Schur complement is the squared sine of the angle between a constraint and those before it (relative
+// to its diagonal); below this it is rounding.
+constexpr double dependent_pivot = 1e-11;
+
+std::string describe(const Holder& holder) {
+  return holder.where.empty() ? (holder.move ? "[[move]]" : "[[fix]]") : holder.where;
+}
+
+char axis_name(int dof) { return dof % 2 == 0 ? 'x' : 'y'; }
+
+bool agree(const Holder& a, const Holder& b) {
+  if (a.move == nullptr || b.move == nullptr) return a.move == b.move;
+  return same_course(*a.move, *b.move);
+}
+
+}  // namespace
+
+std::vector<Holder> holders_of(const Scene& scene) {
+  std::vector<Holder> holders;
+  for (const Fix& fix : scene.fixes) holders.push_back({&fix.nodes, fix.axis, fix.window, nullptr, fix.where});
+  for (const Move& move : scene.moves) holders.push_back({&move.nodes, move.axis, move.window, &move, move.where});
+  return holders;
+}
+
+std::vector<HeldDof> held_dofs(const std::vector<Holder>& holders, const std::vector<char>& active) {
+  std::vector<HeldDof> held;
+  for (std::size_t i = 0; i < holders.size(); ++i) {
+    if (!active[i]) continue;
+    for (int node : *holders[i].nodes) {
+      if (holders[i].axis != Axis::y) held.push_back({2 * node, static_cast<int>(i)});
+      if (holders[i].axis != Axis::x) held.push_back({2 * node + 1, static_cast<int>(i)});
+    }
+  }
+  std::stable_sort(held.begin(), held.end(), [](const HeldDof& a, const HeldDof& b) { return a.dof < b.dof; });
+  std::vector<HeldDof> unique;
+  for (const HeldDof& h : held) {
+    if (unique.empty() || unique.back().dof != h.dof) {
+      unique.push_back(h);
+      continue;
+    }
+    const Holder& first = holders[unique.back().owner];
+    const Holder& second = holders[h.owner];
+    if (!agree(first, second)) {
+      throw Error(Error::Kind::input,
+                  fmt::format("{}: node {} is held in {} by {} at the same time, in another way: let the windows (from, "
+                              "until) not overlap, or leave the node out of one",
+                              describe(second), h.dof / 2, axis_name(h.dof), describe(first)));
+    }
+  }
+  return unique;
+}
+
+ConstraintSolver::ConstraintSolver(const Model& model, const std::vector<HeldDof>& eliminated,
+                                   std::vector<Column> columns)
+    : model_(model), columns_(std::move(columns)), free_(model.layout.part, 1) {
+  for (const HeldDof& h : eliminated) free_[h.dof] = 0;
+  const auto size = static_cast<Eigen::Index>(model.layout.part);
+  work_.setZero(size);
+  correction_.setZero(size);
+  factor_mass();
+  if (!columns_.empty()) factor_schur();
+}
+
+void ConstraintSolver::factor_mass() {
+  const auto n = static_cast<int>(model_.node_mass.size());
+  if (model_.material.mass == Mass::lumped) {
+    inverse_mass_.setZero(2 * n);
+    for (int i = 0; i < 2 * n; ++i) inverse_mass_[i] = free_[i] ? 1.0 / model_.node_mass[i / 2] : 0.0;
+    return;
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    for (int i = 0; i < n; ++i) {
+      if (free_[2 * i + axis]) axis_[axis].nodes.push_back(i);
+    }
+  }
+  same_axes_ = axis_[0].nodes == axis_[1].nodes;
+  for (int axis = 0; axis < (same_axes_ ? 1 : 2); ++axis) {
+    const std::vector<int>& nodes = axis_[axis].nodes;
+    std::vector<int> position(n, -1);
+    for (std::size_t k = 0; k < nodes.size(); ++k) position[nodes[k]] = static_cast<int>(k);
+    std::vector<Eigen::Triplet<double, int>> entries;
+    for (int node : nodes) {
+      for (SparseMatrix::InnerIterator it(model_.mass, node); it; ++it) {
+        if (position[it.col()] >= 0) entries.emplace_back(position[node], position[it.col()], it.value());
+      }
+    }
+    const auto size = static_cast<Eigen::Index>(nodes.size());
+    Eigen::SparseMatrix<double> free_mass(size, size);
+    free_mass.setFromTriplets(entries.begin(), entries.end());
+    if (size > 0) axis_[axis].factor = std::make_unique<Factor>(free_mass);
+  }
+}
+
+void ConstraintSolver::apply_inverse_mass(const Vector& r, Vector& a) const {
+  if (model_.material.mass == Mass::lumped) {
+    for (Eigen::Index i = 0; i < r.size(); ++i) {
+      if (free_[i]) a[i] = inverse_mass_[i] * r[i];
+    }
+    return;
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    const std::vector<int>& nodes = axis_[axis].nodes;
+    if (nodes.empty()) continue;
+    packed_.resize(static_cast<Eigen::Index>(nodes.size()));
+    for (std::size_t k = 0; k < nodes.size(); ++k) packed_[k] = r[2 * nodes[k] + axis];
+    packed_ = axis_[same_axes_ ? 0 : axis].factor->solve(packed_);
+    for (std::size_t k = 0; k < nodes.size(); ++k) a[2 * nodes[k] + axis] = packed_[k];
+  }
+}
+
+double ConstraintSolver::row_times(std::size_t column, const double* x) const {
+  double sum = 0.0;
+  for (const auto& [dof, coefficient] : columns_[column].entries) sum += coefficient * x[dof];
+  return sum;
+}
+
+void ConstraintSolver::factor_schur() {
+  const std::size_t m = columns_.size();
+  const bool dense = model_.material.mass == Mass::consistent;
+  if (dense && 40.0 * static_cast<double>(m) * static_cast<double>(m) > schur_memory_limit) {
+    throw Error(Error::Kind::input,
+                fmt::format("{} general constraints with consistent mass need about {:.1f} GB, the limit is {:.1f} GB: use "
+                            "mass = \"lumped\" or constraints = \"auto\"",
+                            m, 40e-9 * static_cast<double>(m) * static_cast<double>(m), schur_memory_limit * 1e-9));
+  }
+  // Columns by degree of freedom, to find the few that a vector M^-1 A_j touches.
+  std::vector<std::vector<std::pair<int, double>>> by_dof(free_.size());
+  for (std::size_t j = 0; j < m; ++j) {
+    for (const auto& [dof, coefficient] : columns_[j].entries) {
+      if (free_[dof]) by_dof[dof].emplace_back(static_cast<int>(j), coefficient);
+    }
+  }
+  std::vector<Eigen::Triplet<double, int>> entries;
+  Vector column = Vector::Zero(work_.size());
+  Vector y = Vector::Zero(work_.size());
+  for (std::size_t j = 0; j < m; ++j) {
+    const int row = static_cast<int>(j);
+    if (dense) {
+      column.setZero();
+      for (const auto& [dof, coefficient] : columns_[j].entries) column[dof] += free_[dof] ? coefficient : 0.0;
+      y.setZero();
+      apply_inverse_mass(column, y);
+      for (std::size_t i = 0; i < m; ++i) {
+        double sum = 0.0;
+        for (const auto& [dof, coefficient] : columns_[i].entries) sum += free_[dof] ? coefficient * y[dof] : 0.0;
+        entries.emplace_back(static_cast<int>(i), row, sum);
+      }
+    } else {
+      for (const auto& [dof, coefficient] : columns_[j].entries) {
+        for (const auto& [i, other] : by_dof[dof]) entries.emplace_back(i, row, coefficient * other * inverse_mass_[dof]);
+      }
+    }
+  }
+  const auto size = static_cast<Eigen::Index>(m);
+  Eigen::SparseMatrix<double> schur(size, size);
+  schur.setFromTriplets(entries.begin(), entries.end());
+  // Constraints on held nodes only, or that cancel: an empty row.
+  Vector scale(size);
+  for (std::size_t j = 0; j < m; ++j) {
+    double largest = 0.0;
+    for (const auto& [dof, coefficient] : columns_[j].entries) largest = std::max(largest, std::abs(coefficient));
+    const double diagonal = schur.coeff(static_cast<int>(j), static_cast<int>(j));
+    const double mass = model_.node_mass[columns_[j].entries.front().first / 2];
+    if (!(diagonal > dependent_pivot * largest * largest / mass)) refuse_dependent(j);
+    scale[j] = diagonal;
+  }
+  schur_ = std::make_unique<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>();
+  schur_->compute(schur);
+  const Vector pivots = schur_->vectorD();
+  for (Eigen::Index k = 0; k < size; ++k) {
+    const int j = schur_->permutationPinv().size() > 0 ? schur_->permutationPinv().indices()[k] : static_cast<int>(k);
+    if (!(pivots[k] > dependent_pivot * scale[j])) refuse_dependent(j);
+  }
+}
+
+void ConstraintSolver::refuse_dependent(std::size_t column) const {
+  // Which of the two it is: c with A c = A_column in the least-squares sense over the free degrees of freedom, then
+  // compare the values. Only on the way to an error, so dense algebra over the entries' degrees of freedom will do.
+  std::vector<int> dofs;
+  for (const Column& c : columns_) {
+    for (const auto& [dof, coefficient] : c.entries) {
+      if (free_[dof]) dofs.push_back(dof);
+    }
+  }
+  std::sort(dofs.begin(), dofs.end());
+  dofs.erase(std::unique(dofs.begin(), dofs.end()), dofs.end());
+  const Column& offender = columns_[column];
+  const std::string name = offender.where.empty() ? fmt::format("constraint {}", column) : offender.where;
+  const bool small = dofs.size() < 2000 && columns_.size() < 2000;
+  std::string verdict = "follows from or contradicts";
+  if (dofs.empty()) {
+    throw Error(Error::Kind::input,
+                fmt::format("{}: all its nodes are held already, it follows from or contradicts that: take it out", name));
+  }
+  if (small && columns_.size() > 1) {
+    const auto rows = static_cast<Eigen::Index>(dofs.size());
+    Eigen::MatrixXd others = Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(columns_.size()) - 1);
+    Vector values(others.cols());
+    Vector own = Vector::Zero(rows);
+    Eigen::Index k = 0;
+    for (std::size_t j = 0; j < columns_.size(); ++j) {
+      for (const auto& [dof, coefficient] : columns_[j].entries) {
+        if (!free_[dof]) continue;
+        const auto r = std::lower_bound(dofs.begin(), dofs.end(), dof) - dofs.begin();
+        (j == column ? own[r] : others(r, k)) += coefficient;
+      }
+      if (j != column) values[k++] = columns_[j].value;
+    }
+    const Vector c = others.colPivHouseholderQr().solve(own);
+    const double implied = c.dot(values);
+    const double size = std::abs(offender.value) + c.cwiseAbs().dot(values.cwiseAbs());
+    verdict = std::abs(implied - offender.value) <= 1e-9 * size ? "follows from" : "contradicts";
+  }
+  throw Error(Error::Kind::input,
+              fmt::format("{}: this constraint {} the others (they are linearly dependent): take one out", name, verdict));
+}
+
+void ConstraintSolver::solve(const Vector& r, Vector& a, const Vector& target, Vector& multipliers) const {
+  if (model_.material.mass == Mass::lumped) {
+    apply_inverse_mass(r, a);
+  } else {
+    // M_fc a_c: only where something eliminated moves.
+    bool moving = false;
+    for (Eigen::Index i = 0; i < a.size(); ++i) {
+      if (free_[i]) {
+        a[i] = 0.0;
+      } else if (a[i] != 0.0) {
+        moving = true;
+      }
+    }
+    if (moving) {
+      model_.multiply_mass(a.data(), work_.data());
+      work_ = r - work_;
+      apply_inverse_mass(work_, a);
+    } else {
+      apply_inverse_mass(r, a);
+    }
+  }
+  if (columns_.empty()) return;
+  multipliers = target;
+  for (std::size_t j = 0; j < columns_.size(); ++j) multipliers[j] -= row_times(j, a.data());
+  multipliers = schur_->solve(multipliers);
+  work_.setZero();
+  for (std::size_t j = 0; j < columns_.size(); ++j) {
+    for (const auto& [dof, coefficient] : columns_[j].entries) work_[dof] += coefficient * multipliers[j];
+  }
+  correction_.setZero();
+  apply_inverse_mass(work_, correction_);
+  a += correction_;
+}
+
+}  // namespace rheo

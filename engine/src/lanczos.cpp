@@ -1,0 +1,83 @@
+#include "lanczos.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <cstdint>
+
+namespace rheo {
+namespace {
+
+// Residual of the squared frequency at which to stop: half of it remains in the frequency.
+constexpr double wanted_residual = 0.01;
+constexpr int most_steps = 400;
+constexpr int fewest_steps = 16;  // before this a Ritz value may sit on a lower eigenvalue by chance
+
+// Numbers in [-1, 1) that are the same everywhere (splitmix64).
+double pseudo_random(std::uint64_t& state) {
+  state += 0x9e3779b97f4a7c15ULL;
+  std::uint64_t z = state;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return static_cast<double>(static_cast<std::int64_t>(z ^ (z >> 31))) * 0x1p-63;
+}
+
+}  // namespace
+
+RitzBound largest_frequency(const Model& model, const ConstraintSolver& solver) {
+  const auto size = static_cast<Eigen::Index>(model.layout.part);
+  const Vector target = Vector::Zero(static_cast<Eigen::Index>(solver.columns().size()));
+  Vector multipliers = target;
+  Vector mass_times(size);
+  const auto project = [&](const Vector& r, Vector& out) {
+    out.setZero(size);
+    solver.solve(r, out, target, multipliers);
+  };
+  const auto norm = [&](const Vector& x) {
+    model.multiply_mass(x.data(), mass_times.data());
+    return std::sqrt(x.dot(mass_times));
+  };
+
+  Vector start(size);
+  std::uint64_t seed = 1;
+  for (Eigen::Index i = 0; i < size; ++i) {
+    start[i] = solver.is_free(static_cast<std::size_t>(i)) ? pseudo_random(seed) * model.node_mass[i / 2] : 0.0;
+  }
+  Vector q(size), previous = Vector::Zero(size), next(size);
+  project(start, q);
+  double beta = norm(q);
+  RitzBound result;
+  if (!(beta > 0.0)) return result;  // nothing is free
+  q /= beta;
+  beta = 0.0;
+
+  std::vector<double> alphas, betas;
+  for (int k = 1; k <= most_steps; ++k) {
+    project(model.stiffness(q), next);
+    model.multiply_mass(q.data(), mass_times.data());
+    const double alpha = next.dot(mass_times);
+    next -= alpha * q + beta * previous;
+    alphas.push_back(alpha);
+    beta = norm(next);
+    result.steps = k;
+
+    double largest = 0.0;
+    for (double a : alphas) largest = std::max(largest, std::abs(a));
+    const bool invariant = !(beta > 1e-12 * largest);  // the start's whole subspace is found: exact
+    if (invariant || k == most_steps || (k >= fewest_steps && k % 4 == 0)) {
+      const Eigen::Map<const Vector> diagonal(alphas.data(), k);
+      const Eigen::Map<const Vector> off(betas.data(), k - 1);
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
+      ritz.computeFromTridiagonal(diagonal, off);
+      const double theta = std::max(0.0, ritz.eigenvalues()[k - 1]);
+      const double residual = invariant ? 1e-12 * theta : beta * std::abs(ritz.eigenvectors()(k - 1, k - 1));
+      result.omega = std::sqrt(theta + residual);
+      if (invariant || residual <= wanted_residual * theta) break;
+    }
+    betas.push_back(beta);
+    previous = q;
+    q = next / beta;
+  }
+  return result;
+}
+
+}  // namespace rheo

@@ -1,0 +1,136 @@
+#include "model.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace rheo {
+namespace {
+
+using Triplet = Eigen::Triplet<double, int>;
+
+struct Corner {
+  double b = 0.0;
+  double c = 0.0;
+};
+
+std::array<Corner, 3> corners(const Mesh& mesh, const Triangle& t) {
+  std::array<Corner, 3> result;
+  for (int i = 0; i < 3; ++i) {
+    const Vec2& j = mesh.points[t[(i + 1) % 3]];
+    const Vec2& k = mesh.points[t[(i + 2) % 3]];
+    result[i] = {j.y - k.y, k.x - j.x};
+  }
+  return result;
+}
+
+enum class Tensor { lambda, mu };
+
+SparseMatrix connection_matrix(const Mesh& mesh, Tensor tensor) {
+  std::vector<Triplet> entries;
+  entries.reserve(mesh.triangles.size() * 36);
+  for (int e = 0; e < mesh.triangle_count(); ++e) {
+    const Triangle& t = mesh.triangles[e];
+    const auto q = corners(mesh, t);
+    const double scale = mesh.thickness / (4.0 * signed_area(mesh, e));
+    for (int i = 0; i < 3; ++i) {
+      for (int j = 0; j < 3; ++j) {
+        const double bb = scale * q[i].b * q[j].b;
+        const double bc = scale * q[i].b * q[j].c;
+        const double cb = scale * q[i].c * q[j].b;
+        const double cc = scale * q[i].c * q[j].c;
+        const int r = 2 * t[i];
+        const int s = 2 * t[j];
+        const bool is_lambda = tensor == Tensor::lambda;
+        entries.emplace_back(r, s, is_lambda ? bb : 2 * bb + cc);
+        entries.emplace_back(r, s + 1, is_lambda ? bc : cb);
+        entries.emplace_back(r + 1, s, is_lambda ? cb : bc);
+        entries.emplace_back(r + 1, s + 1, is_lambda ? cc : 2 * cc + bb);
+      }
+    }
+  }
+  SparseMatrix matrix(2 * mesh.node_count(), 2 * mesh.node_count());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+// Largest eigenvalue of M_e^-1 K_e. B annihilates translations, so that M_e^-1 acts as 3 / (density h T) (lumped) or
+// 12 / (density h T) (consistent), and the eigenvalues are those of the 3 x 3 product D B B^T.
+double element_eigenvalue(const Mesh& mesh, int e, const Material& material) {
+  const auto q = corners(mesh, mesh.triangles[e]);
+  const double area2 = 2.0 * signed_area(mesh, e);
+  Eigen::Matrix<double, 3, 6> b = Eigen::Matrix<double, 3, 6>::Zero();
+  // Dimensionless: scaled by the longest side, so that tiny and huge triangles lose nothing.
+  double longest = 0.0;
+  for (const Corner& corner : q) longest = std::max(longest, std::hypot(corner.b, corner.c));
+  for (int i = 0; i < 3; ++i) {
+    const double bi = q[i].b / longest;
+    const double ci = q[i].c / longest;
+    b(0, 2 * i) = bi;
+    b(1, 2 * i + 1) = ci;
+    b(2, 2 * i) = ci;
+    b(2, 2 * i + 1) = bi;
+  }
+  const double la = material.lambda_ela;
+  const double mu = material.mu_ela;
+  const double largest = std::max(la, mu);
+  if (largest == 0.0) return 0.0;
+  Eigen::Matrix3d d = Eigen::Matrix3d::Zero();
+  d << la + 2 * mu, la, 0, la, la + 2 * mu, 0, 0, 0, mu;
+  const Eigen::Matrix<double, 6, 6> k = b.transpose() * (d / largest) * b;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(k, Eigen::EigenvaluesOnly);
+  const double scale = longest / area2;
+  const double factor = material.mass == Mass::lumped ? 3.0 : 12.0;
+  return solver.eigenvalues().maxCoeff() * scale * scale * factor * largest / material.density;
+}
+
+}  // namespace
+
+Model::Model(const Mesh& mesh, const Material& m) : material(m) {
+  layout.part = 2 * mesh.points.size();
+  layout.lambda = m.lambda_ela > 0.0;
+  layout.mu = m.mu_ela > 0.0;
+  if (layout.lambda) j_lambda = connection_matrix(mesh, Tensor::lambda);
+  if (layout.mu) j_mu = connection_matrix(mesh, Tensor::mu);
+
+  node_mass = Vector::Zero(mesh.node_count());
+  std::vector<Triplet> entries;
+  double eigenvalue = 0.0;
+  for (int e = 0; e < mesh.triangle_count(); ++e) {
+    const Triangle& t = mesh.triangles[e];
+    const double triangle_mass = m.density * mesh.thickness * signed_area(mesh, e);
+    for (int i = 0; i < 3; ++i) {
+      node_mass[t[i]] += triangle_mass / 3;
+      if (m.mass == Mass::consistent) {
+        for (int j = 0; j < 3; ++j) entries.emplace_back(t[i], t[j], triangle_mass / (i == j ? 6 : 12));
+      }
+    }
+    eigenvalue = std::max(eigenvalue, element_eigenvalue(mesh, e, m));
+  }
+  element_omega = std::sqrt(eigenvalue);
+  if (m.mass == Mass::consistent) {
+    mass.resize(mesh.node_count(), mesh.node_count());
+    mass.setFromTriplets(entries.begin(), entries.end());
+  }
+}
+
+void Model::multiply_mass(const double* x, double* out) const {
+  const Eigen::Index n = node_mass.size();
+  using Nodes = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
+  const Eigen::Map<const Nodes> in(x, n, 2);
+  Eigen::Map<Nodes> result(out, n, 2);
+  if (material.mass == Mass::consistent) {
+    result.noalias() = mass * in;
+  } else {
+    result = (in.array().colwise() * node_mass.array()).matrix();
+  }
+}
+
+Vector Model::stiffness(const Vector& x) const {
+  Vector result = Vector::Zero(x.size());
+  if (layout.lambda) result += material.lambda_ela * (j_lambda * x);
+  if (layout.mu) result += material.mu_ela * (j_mu * x);
+  return result;
+}
+
+}  // namespace rheo

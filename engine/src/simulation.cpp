@@ -1,0 +1,364 @@
+#include "rheo/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "energy_book.hpp"
+#include "model.hpp"
+#include "physics.hpp"
+#include "rheo/error.hpp"
+#include "schedule.hpp"
+#include "timeline.hpp"
+
+namespace rheo {
+namespace {
+
+constexpr double auto_fraction = 0.25;      // of the stable limit
+constexpr double most_steps = 1e15;         // counted exactly by a double, and beyond any patience
+constexpr double violation_allowed = 0.01;  // of the size of a constraint's terms, where it began fulfilled
+
+const Scene& validated(const Scene& scene) {
+  validate(scene);
+  return scene;
+}
+
+// Steps of at most `bound` that divide a stretch of time.
+std::int64_t steps_in(double length, double bound) {
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / bound * (1.0 - 1e-12))));
+}
+
+}  // namespace
+
+struct Simulation::Impl {
+  Impl(Scene&& s, const SimulationOptions& options)
+      : scene(std::move(s)),
+        model(validated(scene).mesh, scene.material),
+        schedule(scene, model),
+        spectrum(schedule.spectrum()),
+        physics(model, scene.time.baumgarte),
+        book(model, physics),
+        integrator(make_integrator(scene.time.integrator, model.layout.size())),
+        y(model.layout.size(), 0.0),
+        y_rate(model.layout.size(), 0.0),
+        zeros(model.layout.part, 0.0) {
+    choose_step(options);
+    const auto part = static_cast<Eigen::Index>(model.layout.part);
+    base.setZero(part);
+    dv.setZero(part);
+    momentum.setZero(part);
+    owner.assign(model.layout.part, -1);
+    enter(0);
+  }
+
+  void choose_step(const SimulationOptions& options) {
+    const TimeSettings& settings = scene.time;
+    limit = rheo::stable_step(spectrum, settings.integrator);
+    const std::string name(integrator->name());
+    if (settings.step > 0.0) {
+      if (settings.step > limit * (1.0 + 1e-12) && !options.allow_unstable) {
+        throw Error(Error::Kind::input,
+                    limit > 0.0
+                        ? fmt::format("step = {:g} s is beyond the largest stable step of {}, {:.6g} s: take a smaller "
+                                      "one or \"auto\", or allow it (--allow-unstable)",
+                                      settings.step, name, limit)
+                        : fmt::format("no step of {} is stable here, some vibrations are not damped: use integrator = "
+                                      "\"rk4\", or allow step = {:g} s (--allow-unstable)",
+                                      name, settings.step));
+      }
+      bound = settings.step;
+    } else {
+      if (limit == 0.0) {
+        throw Error(Error::Kind::input, fmt::format("no step of {} is stable here, some vibrations are not damped: use "
+                                                    "integrator = \"rk4\"",
+                                                    name));
+      }
+      bound = auto_fraction * limit;
+    }
+    if (!(settings.duration / bound < most_steps)) {
+      throw Error(Error::Kind::input,
+                  fmt::format("step = {:g} s needs {:.2g} steps for the duration of {:g} s, at most {:g} can be counted",
+                              bound, settings.duration / bound, settings.duration, most_steps));
+    }
+  }
+
+  Forcing now() const { return {time, {1.0, 0.0, 0.0, 0.0}}; }
+  VectorMap u() { return {y.data() + model.layout.u(), static_cast<Eigen::Index>(model.layout.part)}; }
+  VectorMap v() { return {y.data() + model.layout.v(), static_cast<Eigen::Index>(model.layout.part)}; }
+
+  // Passes an event: new loads and constraints, and the velocity's jump where a constraint begins or its b' jumps.
+  void enter(std::size_t i) {
+    const bool first = i == 0;
+    Interval next = schedule.interval(i);
+    // Base: u - key at the hold's beginning, so that b = base + key.
+    bool begins = first;
+    std::vector<int> next_owner(owner.size(), -1);
+    for (const HeldDof& h : next.held) {
+      next_owner[h.dof] = h.owner;
+      const Polynomial& course = next.course[h.owner][h.dof % 2];
+      if (owner[h.dof] != h.owner) {
+        base[h.dof] = u()[h.dof] - course.value(next.begin);
+        begins = true;
+      } else {
+        const double before = interval.course[h.owner][h.dof % 2].derivative(next.begin, 1);
+        const double after = course.derivative(next.begin, 1);
+        // The same velocity from two polynomials differs by rounding.
+        if (std::abs(after - before) > 1e-12 * (std::abs(after) + std::abs(before))) begins = true;
+      }
+    }
+    owner = std::move(next_owner);
+    interval = std::move(next);
+    index = i;
+    physics.enter(interval, base);
+    if (begins) project_velocity();
+    impose_prescribed();
+    if (begins) note_violations();
+    evaluated = false;
+    reaction_known = false;
+  }
+
+  // v+ = v + M^-1 A L with A^T v+ = b': an impulse, whose energy is work.
+  void project_velocity() {
+    const ConstraintSolver& solver = *interval.solver;
+    const std::size_t columns = solver.columns().size();
+    bool jump = false;
+    for (const HeldDof& h : interval.eliminated) {
+      dv[h.dof] = physics.prescribed(h, interval.begin, 1) - v()[h.dof];
+      jump = jump || dv[h.dof] != 0.0;
+    }
+    Vector target(static_cast<Eigen::Index>(columns)), impulse;
+    for (std::size_t j = 0; j < columns; ++j) {
+      target[j] = physics.column_value(solver.columns()[j], interval.begin, 1) - solver.row_times(j, v().data());
+      jump = jump || target[j] != 0.0;
+    }
+    if (!jump) return;
+    solver.solve(Vector::Zero(dv.size()), dv, target, impulse);
+    model.multiply_mass(dv.data(), momentum.data());
+    const double work = momentum.dot(v()) + 0.5 * momentum.dot(dv);
+    v() += dv;
+    book.book_impulse(work);
+    ++physics.counters().projections;
+  }
+
+  // Eliminated degrees of freedom are where they are told to be, exactly.
+  void impose_prescribed() {
+    for (const HeldDof& h : interval.eliminated) {
+      u()[h.dof] = physics.prescribed(h, time, 0);
+      v()[h.dof] = physics.prescribed(h, time, 1);
+    }
+  }
+
+  double violation(std::size_t column) {
+    const Column& c = interval.solver->columns()[column];
+    return interval.solver->row_times(column, u().data()) - physics.column_value(c, time, 0);
+  }
+
+  // How far each general constraint is from fulfilled where a set of them begins; from here it may only decay.
+  void note_violations() {
+    const std::size_t columns = interval.solver->columns().size();
+    allowed_violation.assign(columns, 0.0);
+    for (std::size_t j = 0; j < columns; ++j) allowed_violation[j] = 2.0 * std::abs(violation(j));
+  }
+
+  void evaluate_now() {
+    if (evaluated) return;
+    physics.evaluate(y, now(), evaluation);
+    physics.rate(y, evaluation, y_rate);
+    powers = book.powers(y, y_rate, evaluation, time);
+    evaluated = true;
+    reaction_known = false;
+  }
+
+  void know_reaction() {
+    evaluate_now();
+    if (reaction_known) return;
+    physics.reaction(evaluation, now(), reaction);
+    external = physics.external_force(now());
+    reaction_known = true;
+  }
+
+  std::optional<Divergence> run_segment(double end) {
+    const double start = time;
+    const std::int64_t n = steps_in(end - start, bound);
+    const double h = (end - start) / static_cast<double>(n);
+    largest_step = std::max(largest_step, h);
+    for (std::int64_t k = 0; k < n; ++k) {
+      evaluate_now();
+      const Powers before = powers;
+      integrator->step(physics, time, h, y, y_rate);
+      time = k + 1 == n ? end : start + static_cast<double>(k + 1) * h;
+      ++physics.counters().steps;
+      impose_prescribed();
+      evaluated = false;
+      evaluate_now();
+      book.book_step(before, powers, h);
+      if (auto found = check_divergence()) return found;
+    }
+    return std::nullopt;
+  }
+
+  std::optional<Divergence> check_divergence() {
+    const double energy = book.kinetic(y) + book.stored(y, evaluation);
+    const double allowed = book.work() + book.turnover();
+    bool fine = energy <= allowed;  // false for NaN
+    for (std::size_t j = 0; fine && j < allowed_violation.size(); ++j) {
+      double size = 0.0;
+      for (const auto& [dof, coefficient] : interval.solver->columns()[j].entries) {
+        size += std::abs(coefficient * u()[dof]);
+      }
+      fine = std::abs(violation(j)) <= allowed_violation[j] + violation_allowed * size;
+    }
+    if (fine) return std::nullopt;
+    Divergence d{time, 0, energy, allowed, limit};
+    double fastest = -1.0;
+    for (int node = 0; node < scene.mesh.node_count(); ++node) {
+      const double speed = std::hypot(v()[2 * node], v()[2 * node + 1]);
+      if (!std::isfinite(speed)) {
+        d.node = node;
+        break;
+      }
+      if (speed > fastest) {
+        fastest = speed;
+        d.node = node;
+      }
+    }
+    return d;
+  }
+
+  std::optional<Divergence> advance(double t) {
+    assert(t >= time || same_time(t, time));
+    while (!diverged && time < t && !same_time(time, t)) {
+      const double event = schedule.end(index);
+      const bool passes = event <= t || same_time(event, t);
+      diverged = run_segment(passes ? event : t);
+      if (!diverged && passes) enter(index + 1);
+    }
+    return diverged;
+  }
+
+  Scene scene;
+  Model model;
+  Schedule schedule;
+  Spectrum spectrum;
+  Physics physics;
+  EnergyBook book;
+  std::unique_ptr<Integrator> integrator;
+
+  double limit = 0.0;
+  double bound = 0.0;
+  double largest_step = 0.0;
+  double time = 0.0;
+  std::size_t index = 0;
+  Interval interval;
+  std::vector<double> y, y_rate, zeros;
+  Vector base, dv, momentum;
+  std::vector<int> owner;  // by degree of freedom: who holds it, -1: nobody
+  std::vector<double> allowed_violation;
+  Evaluation evaluation;
+  Powers powers;
+  bool evaluated = false;
+  Vector reaction, external;
+  bool reaction_known = false;
+  std::optional<Divergence> diverged;
+};
+
+Simulation::Simulation(Scene scene, SimulationOptions options)
+    : impl_(std::make_unique<Impl>(std::move(scene), options)) {}
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
+Simulation::~Simulation() = default;
+
+const Scene& Simulation::scene() const { return impl_->scene; }
+const Spectrum& Simulation::spectrum() const { return impl_->spectrum; }
+double Simulation::stable_step() const { return impl_->limit; }
+double Simulation::step_bound() const { return impl_->bound; }
+double Simulation::time() const { return impl_->time; }
+std::optional<Divergence> Simulation::advance(double t) { return impl_->advance(t); }
+const Counters& Simulation::counters() const { return impl_->physics.counters(); }
+
+std::int64_t Simulation::planned_steps() const {
+  const TimeSettings& settings = impl_->scene.time;
+  std::int64_t steps = 0;
+  double t = 0.0;
+  std::size_t interval = 0;
+  const auto run_to = [&](double target) {
+    while (t < target && !same_time(t, target)) {
+      const double event = impl_->schedule.end(interval);
+      const bool passes = event <= target || same_time(event, target);
+      const double end = passes ? event : target;
+      steps += steps_in(end - t, impl_->bound);
+      t = end;
+      if (passes) ++interval;
+    }
+  };
+  for (std::int64_t k = 0; k < output_count(settings); ++k) run_to(output_time(settings, k));
+  run_to(settings.duration);
+  return steps;
+}
+
+std::span<const double> Simulation::u() const {
+  return {impl_->y.data() + impl_->model.layout.u(), impl_->model.layout.part};
+}
+std::span<const double> Simulation::v() const {
+  return {impl_->y.data() + impl_->model.layout.v(), impl_->model.layout.part};
+}
+std::span<const double> Simulation::w_lambda() const {
+  if (!impl_->model.layout.lambda) return impl_->zeros;
+  return {impl_->y.data() + impl_->model.layout.w_lambda(), impl_->model.layout.part};
+}
+std::span<const double> Simulation::w_mu() const {
+  if (!impl_->model.layout.mu) return impl_->zeros;
+  return {impl_->y.data() + impl_->model.layout.w_mu(), impl_->model.layout.part};
+}
+
+Energies Simulation::energies() const {
+  impl_->evaluate_now();
+  const EnergyBook& book = impl_->book;
+  return {book.kinetic(impl_->y), book.stored(impl_->y, impl_->evaluation), book.dissipated(), book.work()};
+}
+
+std::span<const double> Simulation::reaction() {
+  impl_->know_reaction();
+  return {impl_->reaction.data(), impl_->model.layout.part};
+}
+
+std::span<const double> Simulation::external_force() {
+  impl_->know_reaction();
+  return {impl_->external.data(), impl_->model.layout.part};
+}
+
+std::span<const double> Simulation::multipliers() {
+  impl_->evaluate_now();
+  return {impl_->evaluation.multipliers.data(), impl_->scene.constraints.size()};
+}
+
+ProbeReading Simulation::read(const Probe& probe) {
+  impl_->know_reaction();
+  ProbeReading reading;
+  if (probe.nodes.empty()) return reading;
+  for (int node : probe.nodes) {
+    reading.displacement.x += u()[2 * node];
+    reading.displacement.y += u()[2 * node + 1];
+    reading.force.x += impl_->reaction[2 * node] + impl_->external[2 * node];
+    reading.force.y += impl_->reaction[2 * node + 1] + impl_->external[2 * node + 1];
+  }
+  reading.displacement.x /= static_cast<double>(probe.nodes.size());
+  reading.displacement.y /= static_cast<double>(probe.nodes.size());
+  return reading;
+}
+
+std::vector<Simulation::ActiveTraction> Simulation::active_tractions() const {
+  return impl_->schedule.active_tractions(impl_->index, impl_->time);
+}
+
+std::vector<int> Simulation::held_nodes() const {
+  std::vector<int> nodes;
+  for (const HeldDof& h : impl_->interval.held) {
+    if (nodes.empty() || nodes.back() != h.dof / 2) nodes.push_back(h.dof / 2);
+  }
+  return nodes;
+}
+
+}  // namespace rheo
