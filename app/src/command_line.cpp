@@ -43,6 +43,7 @@ constexpr int most_shapes = 64;
 struct Texts {
   std::string scene, folder, integrator, step, duration, frame_rate, threads;
   std::string size, color, range, backend, sheet;
+  bool vtu = false, force = false, quiet = false, allow_unstable = false;
 };
 
 void add_time_options(CLI::App& command, Texts& texts) {
@@ -58,7 +59,9 @@ void add_time_options(CLI::App& command, Texts& texts) {
   command.add_option("--frame-rate", texts.frame_rate, "outputs per second of simulated time")
       ->type_name("NUMBER")
       ->group(group);
-  command.add_flag("--allow-unstable", "run a step beyond the stable limit instead of refusing it")
+  command
+      .add_flag("--allow-unstable", texts.allow_unstable,
+                "run a step beyond the stable limit instead of refusing it")
       ->group(group);
 }
 
@@ -69,12 +72,13 @@ void add_output_options(CLI::App& command, Texts& texts) {
       ->type_name("DIR")
       ->group(group);
   command
-      .add_flag("--vtu",
+      .add_flag("--vtu", texts.vtu,
                 "also write a ParaView series into DIR/vtu: u, v, w_lambda, w_mu, strain, stress [Pa]")
       ->group(group);
-  command.add_flag("--force", "replace what an earlier rheo wrote into DIR; other files there stay")
+  command
+      .add_flag("--force", texts.force, "replace what an earlier rheo wrote into DIR; other files there stay")
       ->group(group);
-  command.add_flag("--quiet", "print nothing unless something fails")->group(group);
+  command.add_flag("--quiet", texts.quiet, "print nothing unless something fails")->group(group);
   command
       .add_option("--threads", texts.threads,
                   fmt::format("threads that encode frames, 1 to {}; default: as many as processors,\n"
@@ -170,16 +174,16 @@ Options read_values(const Texts& texts, const CLI::App& command) {
   if (given("--duration")) options.duration = positive_number("--duration", texts.duration, "seconds");
   if (given("--frame-rate"))
     options.frame_rate = positive_number("--frame-rate", texts.frame_rate, "outputs per second");
-  options.allow_unstable = given("--allow-unstable");
+  options.allow_unstable = texts.allow_unstable;
 
   options.folder = std::filesystem::path("out") / options.scene.stem();
   if (given("--output")) {
     if (texts.folder.empty()) throw Failure(ExitCode::usage, "--output '': must be the path of a folder");
     options.folder = texts.folder;
   }
-  options.vtu = given("--vtu");
-  options.force = given("--force");
-  options.quiet = given("--quiet");
+  options.vtu = texts.vtu;
+  options.force = texts.force;
+  options.quiet = texts.quiet;
   options.threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 4);
   if (given("--threads")) options.threads = whole_number("--threads", texts.threads, 1, most_threads);
 

@@ -173,8 +173,8 @@ void run_scene(const Options& options) {
   report.divergence = passed.divergence;
   write_run_report(folder.file("run.json"), options, simulation, report);
 
-  list_files(folder, progress);
   summarise(simulation.counters(), seconds, sequence ? passed.outputs : 0, progress);
+  list_files(folder, progress);
   if (passed.divergence) throw Failure(ExitCode::diverged, divergence_text(*passed.divergence, simulation));
 }
 

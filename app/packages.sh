@@ -1,0 +1,47 @@
+# Debian packages that rheo needs, and how to get them; sourced by app/demo.sh and tests/run.sh.
+
+# To build: compiler and tools, algebra, scene files, text, command line, JSON, the pictures' text, PNG, OpenGL's
+# header and the font that is embedded.
+build_packages="g++ cmake ninja-build pkgconf libeigen3-dev libtomlplusplus-dev libfmt-dev libcli11-dev
+  nlohmann-json3-dev libimgui-dev libstb-dev libdeflate-dev libgl-dev fonts-dejavu-core"
+
+# To draw: OpenGL in software, opened when frames are wanted.
+draw_packages="libosmesa6"
+
+# To test: the test frameworks, EGL as the second way to draw, and a reader of ParaView's files.
+test_packages="libgtest-dev libgmock-dev libbenchmark-dev libegl-dev libegl1 libgl1-mesa-dri python3-meshio"
+
+# install_missing PACKAGE...: says what is missing and installs that, as root or with sudo.
+install_missing() {
+  missing=
+  for package in "$@"; do
+    status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null) || status=absent
+    [ "$status" = installed ] || missing="$missing $package"
+  done
+  if [ -z "$missing" ]; then
+    echo "All needed packages are installed."
+    return
+  fi
+  echo "Installing Debian packages:$missing"
+  as_root=
+  if [ "$(id -u)" != 0 ]; then
+    command -v sudo >/dev/null || {
+      echo "This needs root: install sudo, or run as root: apt-get install --no-install-recommends$missing" >&2
+      return 1
+    }
+    as_root=sudo
+  fi
+  # shellcheck disable=SC2086  # words are meant
+  if ! apt-cache show $missing >/dev/null 2>&1 || ! apt_install $missing; then
+    $as_root apt-get update -q
+    apt_install $missing
+  fi
+}
+
+apt_install() {
+  $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends \
+    -o Dpkg::Use-Pty=0 "$@" >"${TMPDIR:-/tmp}/rheo-apt.$$" 2>&1 && status=0 || status=$?
+  [ "$status" = 0 ] || cat "${TMPDIR:-/tmp}/rheo-apt.$$" >&2
+  rm -f "${TMPDIR:-/tmp}/rheo-apt.$$"
+  return "$status"
+}
