@@ -33,14 +33,16 @@ struct Mesh {
   int triangle_count() const { return static_cast<int>(triangles.size()); }
 };
 
-// Makes a mesh fit for use: turns clockwise triangles round, adds the group "boundary" and turns every edge of the
-// other groups so that a boundary edge has the interior on its left. Refuses: no triangles, a node number out of
-// range, a triangle with a repeated node or no area, the same triangle twice, an edge with more than two triangles or
-// with two on the same side, a node without a triangle, a non-finite coordinate, a thickness that is not positive and
-// finite, a group edge that is no edge of the mesh. `where` (a file name, say) begins the message when not empty.
-void prepare(Mesh& mesh, const std::string& where = {});
+// Makes a mesh fit for use: turns clockwise triangles round (and returns how many), adds the group "boundary" and turns
+// every edge of the other groups so that a boundary edge has the interior on its left. Preparing twice changes nothing.
+// Refuses: no triangles, a node number out of range, a triangle with a repeated node or no area (doubled area at most
+// 1e-12 of its longest side squared), the same triangle twice, an edge with more than two triangles or with two on the
+// same side, a node without a triangle, a non-finite coordinate, a thickness that is not positive and finite, a group
+// edge that is no edge of the mesh or is there twice, a group "boundary" that is not the boundary. `where` (a file
+// name, say) begins the message when not empty. After an error the mesh is not to be used.
+int prepare(Mesh& mesh, const std::string& where = {});
 
-// Twice the signed area is the cross product of two sides; positive when counter-clockwise. [m^2]
+// Half the cross product of two sides; positive when counter-clockwise. [m^2]
 double signed_area(const Mesh& mesh, int triangle);
 
 // Node numbers of some edges, each once, in rising order.

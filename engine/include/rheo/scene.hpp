@@ -128,6 +128,16 @@ struct Scene {
   std::vector<std::string> notes;  // remarks of the reader for the user ("12 clockwise triangles turned round")
 };
 
+// Limits against slips of the pen that would fill a disk or never end.
+inline constexpr double max_outputs = 1e7;  // duration * frame_rate
+inline constexpr double max_steps = 1e12;   // duration / step
+inline constexpr int min_picture_side = 16;
+inline constexpr int max_picture_side = 16384;
+
+// The settings alone, for values that come from elsewhere than a scene file (a command line, a panel).
+void validate(const TimeSettings& time);
+void validate(const PictureSettings& picture);
+
 // Checks values and node numbers; what depends on the active constraints is checked by Simulation's constructor.
 void validate(const Scene& scene);
 

@@ -1,12 +1,15 @@
 // Meshes of simple outlines.
 //
 // Units    m
-// Errors   Error::Kind::input for sizes and counts that make no mesh
+// Errors   Error::Kind::input for sizes and counts that make no mesh, and for meshes of more than max_shape_nodes nodes
+//          (before their memory is asked for)
 #pragma once
 
 #include "rheo/mesh.hpp"
 
 namespace rheo {
+
+inline constexpr int max_shape_nodes = 20'000'000;
 
 // How a cell with corners bl, br, tl, tr is cut in two.
 enum class Diagonal {
@@ -16,11 +19,12 @@ enum class Diagonal {
 };
 
 // nx x ny nodes over width x height; node = row * nx + column, row 0 at the bottom, column 0 at the left.
-// Edge groups: left, right, bottom, top, boundary.
+// Prepared. Edge groups: left, right, bottom, top, boundary.
 Mesh rectangle(Vec2 size, int nx, int ny, Diagonal diagonal = Diagonal::falling);
 
 // A node in the middle (the origin) and 6 k nodes on ring k = 1..rings; ring k begins at node 1 + 3 k (k - 1), on the
-// positive x axis, and runs counter-clockwise. Edge groups: rim, boundary.
+// positive x axis, and runs counter-clockwise. Prepared. Edge groups: rim,
+// boundary.
 Mesh disk(double radius, int rings);
 
 }  // namespace rheo

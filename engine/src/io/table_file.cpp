@@ -1,0 +1,97 @@
+#include "io/table_file.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+#include "io/message.hpp"
+#include "io/read_file.hpp"
+#include "rheo/error.hpp"
+
+namespace rheo {
+namespace {
+
+constexpr std::size_t most_bytes = std::size_t{64} << 20;
+
+std::string_view trim(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+std::optional<double> number_in(std::string_view field) {
+  if (field.size() > 1 && field[0] == '+' && field[1] != '-') field.remove_prefix(1);
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc{} || end != field.data() + field.size()) return std::nullopt;
+  return value;
+}
+
+// Up to one more field than wanted, so that a line of any length costs no more.
+std::vector<std::string_view> split(std::string_view line, std::size_t columns) {
+  std::vector<std::string_view> fields;
+  while (fields.size() <= columns) {
+    const auto comma = line.find(',');
+    fields.push_back(trim(line.substr(0, comma)));
+    if (comma == std::string_view::npos) break;
+    line.remove_prefix(comma + 1);
+  }
+  return fields;
+}
+
+}  // namespace
+
+NumberTable parse_table(std::string_view text, const std::string& name, std::size_t columns,
+                        std::string_view form) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);  // byte order mark
+  NumberTable table;
+  bool header_allowed = true;
+  int number = 0;
+  while (!text.empty()) {
+    const auto end = text.find('\n');
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    ++number;
+    line = trim(line.substr(0, line.find('#')));
+    if (line.empty()) continue;
+    const auto refuse = [&](const std::string& what) {
+      throw Error(Error::Kind::input,
+                  fmt::format("{}:{}: {}: {} are needed ({}, separated by commas)", name, number, what,
+                              columns == 1 ? "1 number" : fmt::format("{} numbers", columns), form));
+    };
+    const auto fields = split(line, columns);
+    const bool header = header_allowed && !number_in(fields[0]) &&
+                        (fields[0].empty() || fields[0][0] == '"' ||
+                         std::isalpha(static_cast<unsigned char>(fields[0][0])) != 0);
+    header_allowed = false;
+    if (header && fields.size() == columns) continue;
+    if (fields.size() != columns) {
+      refuse(fmt::format("{} has {} {} columns", in_quotes(line, 40),
+                         fields.size() > columns ? "more than" : "only",
+                         fields.size() > columns ? columns : fields.size()));
+    }
+    std::vector<double> row;
+    row.reserve(columns);
+    for (const std::string_view field : fields) {
+      const auto value = number_in(field);
+      if (!value || !std::isfinite(*value))
+        refuse(fmt::format("{} is no finite number", in_quotes(field, 40)));
+      row.push_back(*value);
+    }
+    table.rows.push_back(std::move(row));
+    table.lines.push_back(number);
+  }
+  if (table.rows.empty()) {
+    throw Error(Error::Kind::input, fmt::format("{}:{}: no numbers: at least one row ({}) is needed", name,
+                                                std::max(1, number), form));
+  }
+  return table;
+}
+
+NumberTable read_table(const std::filesystem::path& file, std::size_t columns, std::string_view form) {
+  return parse_table(read_file(file, "table", most_bytes), file.string(), columns, form);
+}
+
+}  // namespace rheo

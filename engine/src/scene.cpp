@@ -1,0 +1,175 @@
+#include "rheo/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <set>
+#include <string_view>
+#include <utility>
+
+#include "rheo/error.hpp"
+
+namespace rheo {
+namespace {
+
+[[noreturn]] void refuse(const std::string& where, const std::string& text) {
+  throw Error(Error::Kind::input, where.empty() ? text : where + " " + text);
+}
+
+bool finite(Vec2 value) {
+  return std::isfinite(value.x) && std::isfinite(value.y);
+}
+
+void check_node(const std::string& where, int node, const Mesh& mesh) {
+  if (node >= 0 && node < mesh.node_count()) return;
+  refuse(where, fmt::format("node {}: the nodes are numbered 0 to {}", node, mesh.node_count() - 1));
+}
+
+void check_nodes(const std::string& where, std::vector<int> nodes, const Mesh& mesh) {
+  if (nodes.empty()) refuse(where, "no nodes: at least one is needed");
+  for (const int node : nodes) check_node(where, node, mesh);
+  std::sort(nodes.begin(), nodes.end());
+  const auto twice = std::adjacent_find(nodes.begin(), nodes.end());
+  if (twice != nodes.end()) refuse(where, fmt::format("node {} twice: each node once", *twice));
+}
+
+void check_window(const std::string& where, Window window) {
+  if (!(window.from >= 0.0) || !std::isfinite(window.from)) {
+    refuse(where, fmt::format("from = {}: a finite time >= 0 (s) is needed", window.from));
+  }
+  if (!(window.until > window.from)) {
+    refuse(where, fmt::format("until = {}: a time after from = {} (s) is needed; inf: never let go",
+                              window.until, window.from));
+  }
+}
+
+// `values_are_finite(key)` says whether all but the time is finite.
+template <typename Key, typename ValuesAreFinite>
+void check_keys(const std::string& where, const std::vector<Key>& keys, ValuesAreFinite values_are_finite) {
+  if (keys.empty()) refuse(where, "no keys: at least one is needed");
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    if (!std::isfinite(keys[i].t) || !values_are_finite(keys[i])) {
+      refuse(where, fmt::format("key {} at t = {}: finite numbers are needed", i, keys[i].t));
+    }
+    if (i > 0 && !(keys[i].t > keys[i - 1].t)) {
+      refuse(where, fmt::format("key {} at t = {} is not after key {} at t = {}: times must rise", i,
+                                keys[i].t, i - 1, keys[i - 1].t));
+    }
+  }
+}
+
+void check_constraint(const Constraint& constraint, const Mesh& mesh) {
+  if (constraint.terms.empty()) refuse(constraint.where, "no terms: at least one is needed");
+  std::set<std::pair<int, Axis>> seen;
+  for (const ConstraintTerm& term : constraint.terms) {
+    check_node(constraint.where, term.node, mesh);
+    if (term.axis == Axis::both) refuse(constraint.where, "axis both: a term needs \"x\" or \"y\"");
+    if (!std::isfinite(term.coefficient) || term.coefficient == 0.0) {
+      refuse(constraint.where,
+             fmt::format("coefficient {} of node {}: a finite number other than 0 is needed",
+                         term.coefficient, term.node));
+    }
+    if (!seen.insert({term.node, term.axis}).second) {
+      refuse(constraint.where, fmt::format("node {} twice along {}: add the coefficients up", term.node,
+                                           term.axis == Axis::x ? 'x' : 'y'));
+    }
+  }
+  if (!std::isfinite(constraint.value)) {
+    refuse(constraint.where,
+           fmt::format("value = {}: a finite number of metres is needed", constraint.value));
+  }
+}
+
+void check_traction(const Traction& traction, const Mesh& mesh) {
+  if (traction.edges.empty()) refuse(traction.where, "no edges: at least one is needed");
+  for (const Edge& edge : traction.edges) {
+    for (const int node : edge) check_node(traction.where, node, mesh);
+    if (edge[0] == edge[1])
+      refuse(traction.where, fmt::format("edge ({0}, {0}): two different nodes", edge[0]));
+  }
+  check_keys(traction.where, traction.keys, [](const TractionKey& key) { return finite(key.p); });
+  check_window(traction.where, traction.window);
+}
+
+void check_probes(const std::vector<Probe>& probes, const Mesh& mesh) {
+  std::set<std::string_view> names;
+  for (const Probe& probe : probes) {
+    const bool plain = std::all_of(probe.name.begin(), probe.name.end(), [](unsigned char c) {
+      return c < 128 && (std::isalnum(c) != 0 || c == '_' || c == '-');
+    });
+    if (probe.name.empty() || !plain) {
+      refuse(probe.where, "name: letters A-Z, a-z, digits, _ and - are allowed, and at least one of them");
+    }
+    if (!names.insert(probe.name).second) {
+      refuse(probe.where,
+             fmt::format("name = \"{}\": taken by an earlier probe; each needs its own", probe.name));
+    }
+    check_nodes(probe.where, probe.nodes, mesh);
+  }
+}
+
+}  // namespace
+
+void validate(const TimeSettings& time) {
+  const std::string where = "[time]";
+  const auto positive = [&](const char* name, double value, const char* unit) {
+    if (value > 0.0 && std::isfinite(value)) return;
+    refuse(where, fmt::format("{} = {}: a finite number > 0 ({}) is needed", name, value, unit));
+  };
+  positive("duration", time.duration, "s");
+  positive("frame_rate", time.frame_rate, "outputs per second");
+  positive("baumgarte", time.baumgarte, "1/s");
+  if (const double outputs = time.duration * time.frame_rate; !(outputs <= max_outputs)) {
+    refuse(where, fmt::format("frame_rate = {}: {:.3g} outputs in {} s; at most {:.0e} are allowed",
+                              time.frame_rate, outputs, time.duration, max_outputs));
+  }
+  if (!(time.step >= 0.0) || !std::isfinite(time.step)) {
+    refuse(where, fmt::format("step = {}: \"auto\" or a finite number > 0 (s) is needed", time.step));
+  }
+  if (time.step > 0.0 && !(time.duration / time.step <= max_steps)) {
+    refuse(where, fmt::format("step = {}: {:.3g} steps in {} s; at most {:.0e} are allowed", time.step,
+                              time.duration / time.step, time.duration, max_steps));
+  }
+}
+
+void validate(const PictureSettings& picture) {
+  const std::string where = "[render]";
+  for (const int pixels : picture.size) {
+    if (pixels >= min_picture_side && pixels <= max_picture_side) continue;
+    refuse(where, fmt::format("size = [{}, {}]: {} to {} pixels each way are allowed", picture.size[0],
+                              picture.size[1], min_picture_side, max_picture_side));
+  }
+  const auto [low, high] = picture.range;
+  if (!picture.range_auto && (!(low < high) || !std::isfinite(low) || !std::isfinite(high))) {
+    refuse(where, fmt::format("range = [{}, {}]: \"auto\" or two finite numbers [low, high], low < high", low,
+                              high));
+  }
+}
+
+void validate(const Scene& scene) {
+  const Mesh& mesh = scene.mesh;
+  if (mesh.triangles.empty()) refuse("[mesh]", "the mesh has no triangles: at least one is needed");
+  scene.material.validate("[material]");
+  if (!finite(scene.body_acceleration)) {
+    refuse("[body_force]", fmt::format("acceleration = [{}, {}]: finite numbers (m/s^2) are needed",
+                                       scene.body_acceleration.x, scene.body_acceleration.y));
+  }
+  for (const Fix& fix : scene.fixes) {
+    check_nodes(fix.where, fix.nodes, mesh);
+    check_window(fix.where, fix.window);
+  }
+  for (const Move& move : scene.moves) {
+    check_nodes(move.where, move.nodes, mesh);
+    check_window(move.where, move.window);
+    check_keys(move.where, move.keys, [](const MoveKey& key) { return finite(key.u) && finite(key.v); });
+  }
+  for (const Constraint& constraint : scene.constraints) check_constraint(constraint, mesh);
+  for (const Traction& traction : scene.tractions) check_traction(traction, mesh);
+  check_probes(scene.probes, mesh);
+  validate(scene.time);
+  validate(scene.picture);
+}
+
+}  // namespace rheo
