@@ -7,7 +7,10 @@
 
 namespace rheo {
 
-bool same_time(double a, double b) { return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b)); }
+bool same_time(double a, double b) {
+  if (std::isinf(a) || std::isinf(b)) return a == b;
+  return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b));
+}
 
 std::vector<double> event_times(const Scene& scene) {
   std::vector<double> times{0.0};
