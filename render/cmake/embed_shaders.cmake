@@ -1,0 +1,10 @@
+# Writes OUTPUT: a C++ source with the text of every file in SHADERS (a list), found by name at run time.
+set(text "// Generated from shaders/.\n#include \"shader_text.hpp\"\n\nnamespace render {\n\n")
+string(APPEND text "std::string_view embedded_shader(std::string_view name) {\n")
+foreach(file IN LISTS SHADERS)
+  get_filename_component(name "${file}" NAME)
+  file(READ "${file}" body)
+  string(APPEND text "  if (name == \"${name}\") return R\"glsl(${body})glsl\";\n")
+endforeach()
+string(APPEND text "  return {};\n}\n\n}  // namespace render\n")
+file(WRITE "${OUTPUT}" "${text}")

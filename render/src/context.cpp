@@ -1,0 +1,56 @@
+#include "render/context.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "context_backends.hpp"
+
+namespace render {
+
+std::string describe_driver(const Gl& gl, const char* backend) {
+  const auto text = [&gl](GLenum name) {
+    const GLubyte* s = gl.GetString(name);
+    return s ? std::string(reinterpret_cast<const char*>(s)) : std::string("unknown");
+  };
+  return fmt::format("{}: {}, OpenGL {}", backend, text(GL_RENDERER), text(GL_VERSION));
+}
+
+void check_picture_size(const Gl& gl, int width, int height) {
+  GLint texture = 0, buffer = 0;
+  std::array<GLint, 2> viewport{};
+  gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
+  gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &buffer);
+  gl.GetIntegerv(GL_MAX_VIEWPORT_DIMS, viewport.data());
+  const int limit_x = std::min({texture, buffer, viewport[0]});
+  const int limit_y = std::min({texture, buffer, viewport[1]});
+  if (width > limit_x || height > limit_y) {
+    throw std::runtime_error(
+        fmt::format("a picture of {} x {} pixels is beyond this driver's limit of {} x {}", width, height,
+                    limit_x, limit_y));
+  }
+}
+
+std::unique_ptr<Context> open_context(Backend backend, int width, int height) {
+  if (width < 1 || height < 1) {
+    throw std::runtime_error(
+        fmt::format("a picture of {} x {} pixels: width and height must be at least 1", width, height));
+  }
+  switch (backend) {
+    case Backend::osmesa:
+      return open_osmesa(width, height);
+    case Backend::egl:
+      return open_egl(width, height);
+    case Backend::automatic:
+      break;
+  }
+  if (osmesa_present()) return open_osmesa(width, height);
+  if (egl_present()) return open_egl(width, height);
+  throw std::runtime_error(
+      "no OpenGL for drawing without a window: install the Debian package libosmesa6, or libegl1 with "
+      "libgl1-mesa-dri");
+}
+
+}  // namespace render

@@ -1,0 +1,213 @@
+#include "mesh_pass.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+
+#include "colormap.hpp"
+#include "theme.hpp"
+
+namespace render {
+namespace {
+
+constexpr std::size_t row = 1024;  // nodes in a row of the texture; the shaders know it too
+
+std::size_t row_count(std::size_t nodes) {
+  return std::max<std::size_t>((nodes + row - 1) / row, 1);
+}
+
+void sample_nearest(const Gl& gl, GLint filter) {
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+void uniform_color(const Gl& gl, GLint where, Color c) {
+  gl.Uniform4f(where, c.r / 255.0f, c.g / 255.0f, c.b / 255.0f, c.a / 255.0f);
+}
+
+// Where a value lies in the range, 0..1. A range without extent, or without numbers, gives the low colour.
+float colour_coordinate(double value, const std::array<double, 2>& range) {
+  const double t = (value - range[0]) / (range[1] - range[0]);
+  if (!(range[1] > range[0]) || std::isnan(t)) return 0.0f;
+  return static_cast<float>(std::clamp(t, 0.0, 1.0));
+}
+
+}  // namespace
+
+MeshPass::MeshPass(const Gl& gl, const MeshLayout& layout, int width, int height)
+    : gl_(gl),
+      width_(width),
+      height_(height),
+      node_count_(layout.rest.size() / 2),
+      range_(layout.range),
+      mesh_program_(gl, "mesh", {"corner"}),
+      line_program_(gl, "line", {"ends", "along"}),
+      mesh_array_(gl),
+      line_array_(gl),
+      corners_(gl),
+      edges_(gl),
+      colors_(gl),
+      nodes_(gl),
+      rest_(gl) {
+  GLint limit = 0;
+  gl.GetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
+  if (row_count(node_count_) > static_cast<std::size_t>(limit)) {
+    throw std::runtime_error(fmt::format("{} nodes are more than this driver's textures hold ({})",
+                                         node_count_, row * static_cast<std::size_t>(limit)));
+  }
+  const std::array<double, 4> b = usable_bounds(layout.bounds);
+  origin_ = {(b[0] + b[2]) / 2, (b[1] + b[3]) / 2};
+  reach_ = 1e3 * std::max(b[2] - b[0], b[3] - b[1]);
+  colored_ = layout.scalar_name.empty() ? 0.0f : 1.0f;
+  make_texture(nodes_);
+  make_texture(rest_);
+  upload(rest_, layout.rest, {});
+  upload_colors();
+  upload_triangles(layout.triangles);
+  upload_boundary(layout.boundary, layout.rest);
+}
+
+void MeshPass::make_texture(NodeTexture& nodes) const {
+  gl_.ActiveTexture(GL_TEXTURE0);
+  gl_.BindTexture(GL_TEXTURE_2D, nodes.texture.id());
+  sample_nearest(gl_, GL_NEAREST);
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, row, static_cast<GLsizei>(row_count(node_count_)), 0, GL_RGBA,
+                 GL_FLOAT, nullptr);
+}
+
+void MeshPass::set_nodes(std::span<const double> positions, std::span<const double> scalar) {
+  upload(nodes_, positions, scalar);
+}
+
+void MeshPass::upload(NodeTexture& nodes, std::span<const double> positions, std::span<const double> scalar) {
+  assert(positions.size() == 2 * node_count_);
+  assert(scalar.empty() || scalar.size() == node_count_);
+  staging_.resize(row_count(node_count_) * row * 4);
+  for (std::size_t i = 0; i < node_count_; ++i) {
+    const double x = positions[2 * i] - origin_[0], y = positions[2 * i + 1] - origin_[1];
+    const bool finite = std::isfinite(x) && std::isfinite(y);
+    float* to = staging_.data() + 4 * i;
+    to[0] = finite ? static_cast<float>(std::clamp(x, -reach_, reach_)) : 0.0f;
+    to[1] = finite ? static_cast<float>(std::clamp(y, -reach_, reach_)) : 0.0f;
+    to[2] = scalar.empty() ? 0.0f : colour_coordinate(scalar[i], range_);
+    to[3] = finite ? 1.0f : 0.0f;
+  }
+  if (nodes.data == staging_) return;
+  nodes.data = staging_;
+  gl_.ActiveTexture(GL_TEXTURE0);
+  gl_.BindTexture(GL_TEXTURE_2D, nodes.texture.id());
+  gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, row, static_cast<GLsizei>(row_count(node_count_)), GL_RGBA,
+                    GL_FLOAT, staging_.data());
+}
+
+void MeshPass::upload_colors() const {
+  const std::array<Rgb, 256> map = make_colormap();
+  std::array<std::uint8_t, 1024> pixels{};
+  for (std::size_t i = 0; i < map.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) pixels[4 * i + k] = map[i][k];
+    pixels[4 * i + 3] = 255;
+  }
+  gl_.ActiveTexture(GL_TEXTURE1);
+  gl_.BindTexture(GL_TEXTURE_2D, colors_.id());
+  sample_nearest(gl_, GL_LINEAR);
+  gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 256, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+}
+
+void MeshPass::upload_triangles(std::span<const int> triangles) {
+  std::vector<GLint> corners;
+  corners.reserve(triangles.size() * 3);
+  for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t s = 0; s < 3; ++s) {
+        const int node = triangles[t + (k + s) % 3];
+        assert(node >= 0 && static_cast<std::size_t>(node) < node_count_);
+        corners.push_back(node);
+      }
+    }
+  }
+  corner_count_ = static_cast<GLsizei>(corners.size() / 3);
+  gl_.BindVertexArray(mesh_array_.id());
+  gl_.BindBuffer(GL_ARRAY_BUFFER, corners_.id());
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(GLint)), corners.data(),
+                 GL_STATIC_DRAW);
+  gl_.EnableVertexAttribArray(0);
+  gl_.VertexAttribIPointer(0, 3, GL_INT, 0, nullptr);
+}
+
+void MeshPass::upload_boundary(std::span<const int> boundary, std::span<const double> rest) {
+  struct Vertex {
+    std::array<GLint, 2> ends;
+    GLfloat along;
+  };
+  std::vector<Vertex> vertices;
+  vertices.reserve(boundary.size() * 3);
+  double along = 0;
+  for (std::size_t e = 0; e + 1 < boundary.size(); e += 2) {
+    const auto a = static_cast<std::size_t>(boundary[e]), b = static_cast<std::size_t>(boundary[e + 1]);
+    assert(a < node_count_ && b < node_count_);
+    if (e > 0 && boundary[e - 1] != boundary[e]) along = 0;  // a new chain
+    for (int k = 0; k < 6; ++k)
+      vertices.push_back({{boundary[e], boundary[e + 1]}, static_cast<GLfloat>(along)});
+    const double size = std::hypot(rest[2 * b] - rest[2 * a], rest[2 * b + 1] - rest[2 * a + 1]);
+    if (std::isfinite(size)) along += size;
+  }
+  edge_vertex_count_ = static_cast<GLsizei>(vertices.size());
+  gl_.BindVertexArray(line_array_.id());
+  gl_.BindBuffer(GL_ARRAY_BUFFER, edges_.id());
+  gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
+                 GL_STATIC_DRAW);
+  gl_.EnableVertexAttribArray(0);
+  gl_.VertexAttribIPointer(0, 2, GL_INT, sizeof(Vertex), nullptr);
+  gl_.EnableVertexAttribArray(1);
+  gl_.VertexAttribPointer(1, 1, GL_FLOAT, GL_FALSE, sizeof(Vertex),
+                          reinterpret_cast<const void*>(offsetof(Vertex, along)));
+}
+
+void MeshPass::place(const GlProgram& program, const Camera& camera, const NodeTexture& nodes) const {
+  program.use();
+  gl_.ActiveTexture(GL_TEXTURE0);
+  gl_.BindTexture(GL_TEXTURE_2D, nodes.texture.id());
+  gl_.Uniform1i(program.uniform("nodes"), 0);
+  const Point at = camera.pixel(origin_[0], origin_[1]);
+  const auto scale = static_cast<float>(camera.scale);
+  gl_.Uniform4f(program.uniform("view"), scale, -scale, at.x, at.y);
+  gl_.Uniform4f(program.uniform("to_clip"), 2.0f / static_cast<float>(width_),
+                2.0f / static_cast<float>(height_), -1.0f, -1.0f);
+}
+
+void MeshPass::fill(const Camera& camera, float line_width) const {
+  if (corner_count_ == 0) return;
+  place(mesh_program_, camera, nodes_);
+  gl_.ActiveTexture(GL_TEXTURE1);
+  gl_.BindTexture(GL_TEXTURE_2D, colors_.id());
+  gl_.Uniform1i(mesh_program_.uniform("colors"), 1);
+  gl_.Uniform1f(mesh_program_.uniform("colored"), colored_);
+  gl_.Uniform1f(mesh_program_.uniform("wire_half"), line_width / 2);
+  uniform_color(gl_, mesh_program_.uniform("plain"), theme::plain_fill);
+  uniform_color(gl_, mesh_program_.uniform("wire"), theme::wire);
+  gl_.BindVertexArray(mesh_array_.id());
+  gl_.DrawArrays(GL_TRIANGLES, 0, corner_count_);
+}
+
+void MeshPass::lines(const Camera& camera, const LineStyle& style, const NodeTexture& nodes) const {
+  if (edge_vertex_count_ == 0) return;
+  place(line_program_, camera, nodes);
+  gl_.Uniform1f(line_program_.uniform("half_width"), style.width / 2);
+  gl_.Uniform1f(line_program_.uniform("dash"), style.dash);
+  uniform_color(gl_, line_program_.uniform("ink"), style.color);
+  gl_.Enable(GL_BLEND);
+  gl_.BlendEquation(GL_FUNC_ADD);
+  gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  gl_.BindVertexArray(line_array_.id());
+  gl_.DrawArrays(GL_TRIANGLES, 0, edge_vertex_count_);
+  gl_.Disable(GL_BLEND);
+}
+
+}  // namespace render

@@ -1,0 +1,74 @@
+// The mesh on the graphics side: triangles filled by colour, their thin lines, the outline, the rest shape.
+//
+// Nodes live in one RGBA32F texture (x, y relative to the mesh origin, colour coordinate, finite or not),
+// uploaded once a frame and only when it differs; everything that refers to nodes is uploaded once.
+//
+// Shapes   positions n x 2, scalar n or empty, triangles m x 3, boundary k x 2
+// Errors   std::runtime_error: more nodes than the driver's largest texture holds
+// Not here text, arrows, hatches (annotations.hpp)
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "camera.hpp"
+#include "gl_object.hpp"
+#include "gl_program.hpp"
+#include "render/mesh_picture.hpp"
+
+namespace render {
+
+struct LineStyle {
+  Color color;
+  float width = 1;  // pixels
+  float dash = 0;   // period in pixels, 0: solid
+};
+
+class MeshPass {
+ public:
+  MeshPass(const Gl& gl, const MeshLayout& layout, int width, int height);
+
+  void set_nodes(std::span<const double> positions, std::span<const double> scalar);
+  void fill(const Camera& camera, float line_width) const;
+  void outline(const Camera& camera, const LineStyle& style) const { lines(camera, style, nodes_); }
+  void rest_outline(const Camera& camera, const LineStyle& style) const { lines(camera, style, rest_); }
+
+ private:
+  struct NodeTexture {
+    explicit NodeTexture(const Gl& gl) : texture(gl) {}
+    GlTexture texture;
+    std::vector<float> data;  // as uploaded
+  };
+
+  void make_texture(NodeTexture& nodes) const;
+  void upload(NodeTexture& nodes, std::span<const double> positions, std::span<const double> scalar);
+  void upload_colors() const;
+  void upload_triangles(std::span<const int> triangles);
+  void upload_boundary(std::span<const int> boundary, std::span<const double> rest);
+  void lines(const Camera& camera, const LineStyle& style, const NodeTexture& nodes) const;
+  void place(const GlProgram& program, const Camera& camera, const NodeTexture& nodes) const;
+
+  const Gl& gl_;
+  int width_;
+  int height_;
+  std::size_t node_count_;
+  std::array<double, 2> origin_{};
+  double reach_ = 1;  // coordinates are clamped to this, far outside of any picture [m]
+  std::array<double, 2> range_{};
+  GlProgram mesh_program_;
+  GlProgram line_program_;
+  GlVertexArray mesh_array_;
+  GlVertexArray line_array_;
+  GlBuffer corners_;
+  GlBuffer edges_;
+  GlTexture colors_;
+  NodeTexture nodes_;
+  NodeTexture rest_;
+  std::vector<float> staging_;
+  GLsizei corner_count_ = 0;
+  GLsizei edge_vertex_count_ = 0;
+  float colored_ = 0;
+};
+
+}  // namespace render

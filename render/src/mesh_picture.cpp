@@ -1,0 +1,176 @@
+#include "render/mesh_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "annotations.hpp"
+#include "camera.hpp"
+#include "canvas.hpp"
+#include "mesh_pass.hpp"
+#include "render/context.hpp"
+#include "sheet_grid.hpp"
+#include "target.hpp"
+#include "theme.hpp"
+#include "ticks.hpp"
+
+namespace render {
+namespace {
+
+Context& current(Context& context) {
+  context.make_current();
+  return context;
+}
+
+// What of the layout is needed beyond the constructor: copies, for its spans end with the call.
+struct Body {
+  explicit Body(const MeshLayout& layout)
+      : boundary(layout.boundary.begin(), layout.boundary.end()),
+        title(layout.title),
+        bar{layout.scalar_name, layout.scalar_unit, layout.range},
+        bounds(usable_bounds(layout.bounds)),
+        arrow_scale(layout.arrow_scale) {}
+
+  std::vector<int> boundary;
+  std::string title;
+  ColorBar bar;
+  std::array<double, 4> bounds;
+  double arrow_scale;
+};
+
+}  // namespace
+
+struct MeshPicture::Impl {
+  Impl(Context& c, const MeshLayout& layout)
+      : context(current(c)),
+        gl(c.gl()),
+        body(layout),
+        target(gl, c.width(), c.height()),
+        canvas(gl, c.width(), c.height(), layout.title + layout.scalar_name + layout.scalar_unit),
+        pass(gl, layout, c.width(), c.height()),
+        arrows(body.boundary) {}
+
+  // The picture's parts: the title line, the colour bar, and what is left for the body.
+  struct Parts {
+    Rect title, bar, body;
+  };
+  Parts parts() const {
+    const auto w = static_cast<float>(canvas.width()), h = static_cast<float>(canvas.height());
+    const float text = canvas.text_size(TextSize::normal), margin = 1.1f * text;
+    Parts p;
+    p.title = {margin, margin, w - margin, margin + canvas.text_size(TextSize::title)};
+    const float top = p.title.y1 + 0.9f * text;
+    float right = w - margin;
+    if (!body.bar.name.empty()) {
+      p.bar = {right - color_bar_width(canvas, body.bar), top, right, h - margin};
+      // A tall bar beside a small picture of the body is no help: it keeps to the middle of a tall picture.
+      const float tallest = 24 * text;
+      if (p.bar.height() > tallest) {
+        const float middle = (p.bar.y0 + p.bar.y1) / 2;
+        p.bar.y0 = middle - tallest / 2;
+        p.bar.y1 = middle + tallest / 2;
+      }
+      right = p.bar.x0 - 1.4f * text;
+    }
+    p.body = {margin, top, right, h - margin};
+    return p;
+  }
+
+  float arrow_length() const { return 2.8f * canvas.text_size(TextSize::normal); }
+
+  // Space about the bounds: hatches and line widths, and arrows where the sequence has any.
+  Rect inner(const Rect& area) const {
+    const float edge = 0.7f * canvas.text_size(TextSize::normal);
+    const float pad = body.arrow_scale > 0 ? std::max(edge, arrow_length()) : edge;
+    const float px = std::min(pad, 0.25f * area.width()), py = std::min(pad, 0.25f * area.height());
+    return {area.x0 + px, area.y0 + py, area.x1 - px, area.y1 - py};
+  }
+
+  void begin() {
+    context.make_current();
+    target.bind();
+    gl.Disable(GL_DEPTH_TEST);
+    gl.Disable(GL_CULL_FACE);
+    gl.Disable(GL_SCISSOR_TEST);
+    gl.Disable(GL_BLEND);
+    gl.ClearColor(theme::paper.r / 255.0f, theme::paper.g / 255.0f, theme::paper.b / 255.0f, 1.0f);
+    gl.Clear(GL_COLOR_BUFFER_BIT);
+  }
+
+  void draw_body(const Camera& camera, const MeshFrame& frame, const Rect& value_area) {
+    const float unit = canvas.unit();
+    draw_hatches(canvas, camera, body.boundary, frame.positions, frame.held, mark);
+    canvas.flush();
+    pass.set_nodes(frame.positions, frame.scalar);
+    pass.fill(camera, std::max(0.8f, 0.9f * unit));
+    Color rest = theme::ink;
+    rest.a = 130;
+    pass.rest_outline(camera, {rest, std::max(1.0f, 1.2f * unit), 9 * unit});
+    pass.outline(camera, {theme::ink, std::max(1.5f, 2.2f * unit), 0});
+    arrows.draw(canvas, camera, frame.positions, frame.arrows, body.arrow_scale, arrow_length(), value_area);
+  }
+
+  void draw_heading(const Parts& p, const std::string& right) {
+    const float y = (p.title.y0 + p.title.y1) / 2;
+    const float taken = right.empty() ? 0 : canvas.text_width(TextSize::normal, right) + p.title.y0;
+    if (!right.empty()) canvas.text({p.title.x1, y}, Align::right, TextSize::normal, theme::ink, right);
+    const std::string title = canvas.fit(TextSize::title, body.title, p.title.width() - taken);
+    canvas.text({p.title.x0, y}, Align::left, TextSize::title, theme::ink, title);
+    if (!body.bar.name.empty()) draw_color_bar(canvas, body.bar, p.bar);
+  }
+
+  Context& context;
+  const Gl& gl;
+  Body body;
+  Target target;
+  Canvas canvas;
+  MeshPass pass;
+  TractionArrows arrows;
+  std::vector<char> mark;
+};
+
+MeshPicture::MeshPicture(Context& context, const MeshLayout& layout)
+    : impl_(std::make_unique<Impl>(context, layout)) {}
+
+MeshPicture::~MeshPicture() {
+  if (impl_) impl_->context.make_current();
+}
+
+MeshPicture::MeshPicture(MeshPicture&&) noexcept = default;
+
+void MeshPicture::draw(const MeshFrame& frame, Image& out) {
+  Impl& m = *impl_;
+  m.begin();
+  const Impl::Parts p = m.parts();
+  m.draw_body(fit_camera(m.body.bounds, m.inner(p.body)), frame, p.body);
+  m.draw_heading(p, time_text(frame.time));
+  m.canvas.flush();
+  m.target.read(out);
+}
+
+Image MeshPicture::sheet(std::span<const MeshFrame> frames) {
+  Impl& m = *impl_;
+  m.begin();
+  const Impl::Parts p = m.parts();
+  const float text = m.canvas.text_size(TextSize::small);
+  const float label = 1.5f * text;  // a panel's time above its shape
+  const double w = m.body.bounds[2] - m.body.bounds[0], h = m.body.bounds[3] - m.body.bounds[1];
+  const Rect whole{0, 0, 1000, 1000};
+  const Rect inner = m.inner(whole);
+  const Grid grid = choose_grid(static_cast<int>(frames.size()), w, h, p.body, whole.width() - inner.width(),
+                                whole.height() - inner.height() + label);
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    Rect cell = grid_cell(grid, p.body, static_cast<int>(i));
+    const Point at{cell.x0, cell.y0 + 0.5f * text};
+    cell.y0 += label;
+    m.draw_body(fit_camera(m.body.bounds, m.inner(cell)), frames[i], {});
+    m.canvas.text(at, Align::left, TextSize::small, theme::ink, time_text(frames[i].time));
+  }
+  m.draw_heading(p, {});
+  m.canvas.flush();
+  Image out;
+  m.target.read(out);
+  return out;
+}
+
+}  // namespace render

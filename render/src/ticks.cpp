@@ -1,0 +1,94 @@
+#include "ticks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace render {
+namespace {
+
+// A real minus sign.
+std::string written(double value, int decimals) {
+  std::string s = fmt::format("{:.{}f}", value == 0 ? 0.0 : value, decimals);
+  if (s.front() != '-') return s;
+  if (s.find_first_of("123456789") == std::string::npos) return s.substr(1);
+  return s.replace(0, 1, "−");
+}
+
+}  // namespace
+
+Ticks linear_ticks(double low, double high, int most) {
+  Ticks ticks;
+  const double span = high - low;
+  if (!(span > 0) || !std::isfinite(span) || most < 1) return ticks;
+  const double rough = span / std::max(most - 1, 1);
+  double power = std::pow(10.0, std::floor(std::log10(rough)));
+  if (!(power > 0) || !std::isfinite(power)) return ticks;
+  double step = 10 * power;
+  for (const double m : {1.0, 2.0, 5.0}) {
+    if (m * power >= rough * (1 - 1e-9)) {
+      step = m * power;
+      break;
+    }
+  }
+  const double first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
+  if (last - first > 1000) return ticks;
+  // Close ranges far from zero: the step is lost in rounding.
+  if (std::max(std::abs(low), std::abs(high)) > 1e12 * step) return ticks;
+  const double largest = std::max(std::abs(first), std::abs(last)) * step;
+  const int magnitude = largest > 0 ? static_cast<int>(std::floor(std::log10(largest) + 1e-9)) : 0;
+  if (magnitude >= 5 || magnitude <= -3) ticks.exponent = magnitude;
+  const double unit = std::pow(10.0, ticks.exponent);
+  const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step / unit) + 1e-9)));
+  for (double k = first; k <= last; ++k) {
+    ticks.at.push_back(k * step);
+    ticks.labels.push_back(written(k * step / unit, decimals));
+  }
+  return ticks;
+}
+
+Ticks log_ticks(double low, double high, int most) {
+  Ticks ticks;
+  if (!(low > 0) || !(high >= low) || !std::isfinite(high) || most < 1) return ticks;
+  const int first = static_cast<int>(std::ceil(std::log10(low) - 1e-9));
+  const int last = static_cast<int>(std::floor(std::log10(high) + 1e-9));
+  if (last - first < 1) {
+    for (int k = first - 1; k <= last; ++k) {
+      for (const int m : {1, 2, 5}) {
+        const double value = m * std::pow(10.0, k);
+        if (value < low * (1 - 1e-9) || value > high * (1 + 1e-9)) continue;
+        ticks.at.push_back(value);
+        ticks.labels.push_back(m == 1 ? fmt::format("10^{{{}}}", k) : fmt::format("{}×10^{{{}}}", m, k));
+      }
+    }
+    return ticks;
+  }
+  const int every = std::max(1, (last - first + most) / most);
+  for (int k = first; k <= last; ++k) {
+    if (k % every != 0 && every > 1) continue;
+    ticks.at.push_back(std::pow(10.0, k));
+    ticks.labels.push_back(fmt::format("10^{{{}}}", k));
+  }
+  return ticks;
+}
+
+std::string with_unit(double value, const std::string& unit) {
+  static constexpr const char* prefixes[] = {"n", "µ", "m", "", "k", "M", "G", "T"};
+  const double size = std::abs(value);
+  int k = 3;
+  if (size > 0 && std::isfinite(size)) {
+    k = std::clamp(3 + static_cast<int>(std::floor((std::log10(size) + 1e-9) / 3)), 0, 7);
+  }
+  return fmt::format("{:.3g} {}{}", value / std::pow(1000.0, k - 3), prefixes[k], unit);
+}
+
+std::string time_text(double seconds) {
+  const double size = std::abs(seconds);
+  if (!std::isfinite(seconds)) return "t = ?";
+  if (size == 0 || size >= 0.0095) return fmt::format("t = {:.{}f} s", seconds, size >= 1000 ? 1 : 3);
+  if (size >= 0.95e-5) return fmt::format("t = {:.3f} ms", seconds * 1e3);
+  return fmt::format("t = {:.3g} µs", seconds * 1e6);
+}
+
+}  // namespace render

@@ -1,0 +1,25 @@
+precision highp float;
+
+uniform vec4 ink;
+uniform float half_width;  // pixels
+uniform float dash;        // period of the dashes in pixels; 0: solid
+
+in vec2 position;
+flat in vec2 first;
+flat in vec2 second;
+flat in float start;
+
+out vec4 color;
+
+void main() {
+  vec2 edge = second - first;
+  float size = max(length(edge), 1e-6);
+  float s = clamp(dot(position - first, edge) / size, 0.0, size);
+  float d = distance(position, first + edge * (s / size));
+  float alpha = clamp(half_width + 0.5 - d, 0.0, 1.0);
+  if (dash > 0.0) {
+    float phase = abs(fract((start + s) / dash) - 0.5) * dash;  // from the middle of a dash, pixels
+    alpha *= clamp(dash * 0.29 + 0.5 - phase, 0.0, 1.0);
+  }
+  color = vec4(ink.rgb, ink.a * alpha);
+}
