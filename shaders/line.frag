@@ -7,12 +7,19 @@ uniform float dash;        // period of the dashes in pixels; 0: solid
 in vec2 position;
 flat in vec2 first;
 flat in vec2 second;
+flat in vec2 third;
+flat in float follows;
 flat in float start;
 
 out vec4 color;
 
 void main() {
   vec2 edge = second - first;
+  // Every point of the line belongs to one edge only, or soft rims would be drawn twice at each joint: behind its start
+  // to the edge before, beyond its end to the edge that follows, but for the wedge between the two.
+  if (dot(position - first, edge) < 0.0) discard;
+  vec2 beyond = position - second;
+  if (follows > 0.5 && dot(beyond, edge) >= 0.0 && dot(beyond, third - second) >= 0.0) discard;
   float size = max(length(edge), 1e-6);
   float s = clamp(dot(position - first, edge) / size, 0.0, size);
   float d = distance(position, first + edge * (s / size));

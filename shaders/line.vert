@@ -1,4 +1,4 @@
-// Edges as capsules: a rectangle of six vertices about each, the distance to the edge decides in the fragment shader.
+// Edges as strips with round joints: a rectangle of six vertices about each, the fragment shader decides by distance.
 precision highp float;
 precision highp int;
 
@@ -7,12 +7,14 @@ uniform vec4 view;
 uniform vec4 to_clip;
 uniform float half_width;  // pixels
 
-in ivec2 ends;    // the edge's nodes
+in ivec3 ends;    // the edge's nodes, and the end of the edge that follows; -1: none follows
 in float along;   // length of the boundary before this edge, reference units
 
 out vec2 position;
 flat out vec2 first;
 flat out vec2 second;
+flat out vec2 third;
+flat out float follows;
 flat out float start;
 
 vec4 node(int i) { return texelFetch(nodes, ivec2(i & 1023, i >> 10), 0); }
@@ -33,6 +35,8 @@ void main() {
   position = (at_b ? b + t * reach : a - t * reach) + (left ? n : -n) * reach;
   first = a;
   second = b;
+  third = ends.z >= 0 ? node(ends.z).xy * view.xy + view.zw : b;
+  follows = ends.z >= 0 ? 1.0 : 0.0;
   start = along * view.x;
   bool finite = na.w * nb.w > 0.5;
   gl_Position = finite ? vec4(position * to_clip.xy + to_clip.zw, 0.0, 1.0) : vec4(-3.0, -3.0, 0.0, 1.0);

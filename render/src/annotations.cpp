@@ -123,6 +123,7 @@ void TractionArrows::draw(Canvas& canvas, const Camera& camera, std::span<const 
     std::array<float, 2> away;  // from the body
   };
   std::vector<Drawn> strongest;
+  float left = std::numeric_limits<float>::infinity(), right = -left, top = left;  // what the strongest cover
   for (std::size_t k = 0; k < arrows.size(); ++k) {
     const TractionArrow& arrow = arrows[k];
     const double size = std::hypot(arrow.vector[0], arrow.vector[1]);
@@ -146,19 +147,28 @@ void TractionArrows::draw(Canvas& canvas, const Camera& camera, std::span<const 
     canvas.line(tail, {tip.x - ux * head * 0.8f, tip.y - uy * head * 0.8f}, theme::force, width);
     canvas.triangle(tip, {neck.x - uy * half, neck.y + ux * half}, {neck.x + uy * half, neck.y - ux * half},
                     theme::force);
-    if (size > (1 - 1e-9) * largest)
-      strongest.push_back({presses ? tail : tip, {presses ? -ux : ux, presses ? -uy : uy}});
+    if (size < (1 - 1e-9) * largest) continue;
+    strongest.push_back({presses ? tail : tip, {presses ? -ux : ux, presses ? -uy : uy}});
+    left = std::min({left, tail.x, tip.x});
+    right = std::max({right, tail.x, tip.x});
+    top = std::min({top, tail.y - half, tip.y - half});
   }
   if (strongest.empty() || value_area.width() <= 0) return;
 
-  // The value beyond the middle one of the largest arrows, kept inside of the area.
+  // The value beyond the middle one of the largest arrows; above all arrows where that is outside of the
+  // area.
   const Drawn& chosen = strongest[strongest.size() / 2];
   const std::string value = with_unit(largest, "Pa");
   const float text = canvas.text_size(TextSize::small), w = canvas.text_width(TextSize::small, value);
-  const float px = chosen.away[0] * (w / 2 + 0.4f * text), py = chosen.away[1] * 0.8f * text;
-  const float x = std::clamp(chosen.outer.x + px, value_area.x0 + w / 2,
-                             std::max(value_area.x1 - w / 2, value_area.x0 + w / 2));
-  const float y = std::clamp(chosen.outer.y + py, value_area.y0 + text / 2, value_area.y1 - text / 2);
+  float x = chosen.outer.x + chosen.away[0] * (w / 2 + 0.5f * text);
+  float y = chosen.outer.y + chosen.away[1] * 0.8f * text;
+  const auto inside = [](float v, float low, float high) { return v >= low && v <= high; };
+  if (!inside(x, value_area.x0 + w / 2, value_area.x1 - w / 2) || !inside(y, value_area.y0, value_area.y1)) {
+    x = (left + right) / 2;
+    y = top - 0.9f * text;
+  }
+  x = std::clamp(x, value_area.x0 + w / 2, std::max(value_area.x1 - w / 2, value_area.x0 + w / 2));
+  y = std::clamp(y, value_area.y0 + text / 2, std::max(value_area.y1 - text / 2, value_area.y0 + text / 2));
   Color halo = theme::paper;
   halo.a = 215;
   canvas.rect({x - w / 2 - 0.2f * text, y - 0.55f * text, x + w / 2 + 0.2f * text, y + 0.55f * text}, halo,

@@ -239,12 +239,15 @@ void Canvas::label(Point at, Align align, TextSize size, Color color, std::strin
 }
 
 void Canvas::label_upwards(Point at, TextSize size, Color color, std::string_view s) {
-  const Point center{std::round(at.x), std::round(at.y)};
+  // Drawn in the picture's middle, where nothing of it is clipped, then turned and moved.
+  const Point center{std::round(static_cast<float>(impl_->width) / 2),
+                     std::round(static_cast<float>(impl_->height) / 2)};
+  const Point to{std::round(at.x), std::round(at.y)};
   const int first = impl_->list.VtxBuffer.Size;
   label(center, Align::center, size, color, s);
   for (int i = first; i < impl_->list.VtxBuffer.Size; ++i) {
     ImVec2& p = impl_->list.VtxBuffer[i].pos;
-    p = {center.x + (p.y - center.y), center.y - (p.x - center.x)};
+    p = {to.x + (p.y - center.y), to.y - (p.x - center.x)};
   }
 }
 

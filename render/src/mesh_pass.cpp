@@ -143,18 +143,21 @@ void MeshPass::upload_triangles(std::span<const int> triangles) {
 
 void MeshPass::upload_boundary(std::span<const int> boundary, std::span<const double> rest) {
   struct Vertex {
-    std::array<GLint, 2> ends;
+    std::array<GLint, 3> ends;
     GLfloat along;
   };
   std::vector<Vertex> vertices;
   vertices.reserve(boundary.size() * 3);
+  std::vector<GLint> next(node_count_, -1);  // where the edge that begins at a node ends
+  for (std::size_t e = 0; e + 1 < boundary.size(); e += 2)
+    next[static_cast<std::size_t>(boundary[e])] = boundary[e + 1];
   double along = 0;
   for (std::size_t e = 0; e + 1 < boundary.size(); e += 2) {
     const auto a = static_cast<std::size_t>(boundary[e]), b = static_cast<std::size_t>(boundary[e + 1]);
     assert(a < node_count_ && b < node_count_);
     if (e > 0 && boundary[e - 1] != boundary[e]) along = 0;  // a new chain
     for (int k = 0; k < 6; ++k)
-      vertices.push_back({{boundary[e], boundary[e + 1]}, static_cast<GLfloat>(along)});
+      vertices.push_back({{boundary[e], boundary[e + 1], next[b]}, static_cast<GLfloat>(along)});
     const double size = std::hypot(rest[2 * b] - rest[2 * a], rest[2 * b + 1] - rest[2 * a + 1]);
     if (std::isfinite(size)) along += size;
   }
@@ -164,7 +167,7 @@ void MeshPass::upload_boundary(std::span<const int> boundary, std::span<const do
   gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
                  GL_STATIC_DRAW);
   gl_.EnableVertexAttribArray(0);
-  gl_.VertexAttribIPointer(0, 2, GL_INT, sizeof(Vertex), nullptr);
+  gl_.VertexAttribIPointer(0, 3, GL_INT, sizeof(Vertex), nullptr);
   gl_.EnableVertexAttribArray(1);
   gl_.VertexAttribPointer(1, 1, GL_FLOAT, GL_FALSE, sizeof(Vertex),
                           reinterpret_cast<const void*>(offsetof(Vertex, along)));

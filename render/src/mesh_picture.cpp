@@ -76,15 +76,16 @@ struct MeshPicture::Impl {
     return p;
   }
 
-  float arrow_length() const { return 2.8f * canvas.text_size(TextSize::normal); }
-
-  // Space about the bounds: hatches and line widths, and arrows where the sequence has any.
-  Rect inner(const Rect& area) const {
-    const float edge = 0.7f * canvas.text_size(TextSize::normal);
-    const float pad = body.arrow_scale > 0 ? std::max(edge, arrow_length()) : edge;
-    const float px = std::min(pad, 0.25f * area.width()), py = std::min(pad, 0.25f * area.height());
+  // Space about the bounds for hatches and lines, and for arrows: `across` and `up` are how far they may
+  // reach, as parts of the longest one.
+  Rect inner(const Rect& area, float across, float up) const {
+    const float edge = 0.9f * canvas.text_size(TextSize::normal);
+    const float px = std::min(edge + across * arrow_length(), 0.25f * area.width());
+    const float py = std::min(edge + up * arrow_length(), 0.25f * area.height());
     return {area.x0 + px, area.y0 + py, area.x1 - px, area.y1 - py};
   }
+
+  float arrow_length() const { return 2.8f * canvas.text_size(TextSize::normal); }
 
   void begin() {
     context.make_current();
@@ -142,7 +143,8 @@ void MeshPicture::draw(const MeshFrame& frame, Image& out) {
   Impl& m = *impl_;
   m.begin();
   const Impl::Parts p = m.parts();
-  m.draw_body(fit_camera(m.body.bounds, m.inner(p.body)), frame, p.body);
+  const float reach = m.body.arrow_scale > 0 ? 1.0f : 0.0f;  // of arrows yet unknown, in any direction
+  m.draw_body(fit_camera(m.body.bounds, m.inner(p.body, reach, reach)), frame, p.body);
   m.draw_heading(p, time_text(frame.time));
   m.canvas.flush();
   m.target.read(out);
@@ -156,14 +158,27 @@ Image MeshPicture::sheet(std::span<const MeshFrame> frames) {
   const float label = 1.5f * text;  // a panel's time above its shape
   const double w = m.body.bounds[2] - m.body.bounds[0], h = m.body.bounds[3] - m.body.bounds[1];
   const Rect whole{0, 0, 1000, 1000};
-  const Rect inner = m.inner(whole);
+  std::array<float, 2> reach{};
+  for (const MeshFrame& frame : frames) {
+    for (const TractionArrow& arrow : frame.arrows) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        const double part = m.body.arrow_scale > 0 ? std::abs(arrow.vector[k]) / m.body.arrow_scale : 1.0;
+        if (std::isfinite(part)) reach[k] = std::max(reach[k], static_cast<float>(std::min(part, 1.0)));
+      }
+    }
+  }
+  const Rect inner = m.inner(whole, reach[0], reach[1]);
   const Grid grid = choose_grid(static_cast<int>(frames.size()), w, h, p.body, whole.width() - inner.width(),
                                 whole.height() - inner.height() + label);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     Rect cell = grid_cell(grid, p.body, static_cast<int>(i));
-    const Point at{cell.x0, cell.y0 + 0.5f * text};
     cell.y0 += label;
-    m.draw_body(fit_camera(m.body.bounds, m.inner(cell)), frames[i], {});
+    const Rect room = m.inner(cell, reach[0], reach[1]);
+    const Camera camera = fit_camera(m.body.bounds, room);
+    m.draw_body(camera, frames[i], {});
+    // The time stands above what the camera shows, not above an empty part of the cell.
+    const Point corner = camera.pixel(m.body.bounds[0], m.body.bounds[3]);
+    const Point at{corner.x, corner.y - (room.y0 - cell.y0) - label + 0.5f * text};
     m.canvas.text(at, Align::left, TextSize::small, theme::ink, time_text(frames[i].time));
   }
   m.draw_heading(p, {});
