@@ -47,16 +47,21 @@ struct Texts {
 };
 
 void add_time_options(CLI::App& command, Texts& texts) {
-  const char* group = "Overrides of the scene's [time]";
-  command.add_option("--integrator", texts.integrator, "rk4 or euler")->type_name("NAME")->group(group);
+  const char* group = "Time (default: as the scene says)";
+  command.add_option("--integrator", texts.integrator, "rk4 or euler; a scene's default is rk4")
+      ->type_name("NAME")
+      ->group(group);
   command
       .add_option("--step", texts.step,
                   "largest step, seconds; every interval between events and outputs is\n"
-                  "divided into equal steps. auto: a quarter of the stable limit")
+                  "divided into equal steps. auto, a scene's default: a quarter of the\n"
+                  "stable limit")
       ->type_name("NUMBER|auto")
       ->group(group);
   command.add_option("--duration", texts.duration, "seconds to simulate")->type_name("NUMBER")->group(group);
-  command.add_option("--frame-rate", texts.frame_rate, "outputs per second of simulated time")
+  command
+      .add_option("--frame-rate", texts.frame_rate,
+                  "outputs per second of simulated time; a scene's default is 60")
       ->type_name("NUMBER")
       ->group(group);
   command
@@ -73,7 +78,8 @@ void add_output_options(CLI::App& command, Texts& texts) {
       ->group(group);
   command
       .add_flag("--vtu", texts.vtu,
-                "also write a ParaView series into DIR/vtu: u, v, w_lambda, w_mu, strain, stress [Pa]")
+                "also write a ParaView series into DIR/vtu: u [m], v [m/s], w_lambda\nand w_mu [Pa m], "
+                "strain, stress [Pa]")
       ->group(group);
   command
       .add_flag("--force", texts.force, "replace what an earlier rheo wrote into DIR; other files there stay")
@@ -89,21 +95,24 @@ void add_output_options(CLI::App& command, Texts& texts) {
 }
 
 void add_picture_options(CLI::App& command, Texts& texts) {
-  const char* group = "Pictures (defaults: the scene's [render])";
-  command.add_option("--size", texts.size, "pixels, each side 16 to 16384, such as 1280x720")
+  const char* group = "Pictures (default: as the scene says)";
+  command.add_option("--size", texts.size, "pixels, each side 16 to 16384; a scene's default is 1280x720")
       ->type_name("WxH")
       ->group(group);
   command
       .add_option("--color", texts.color,
-                  "w_lambda, w_mu, w (both) [Pa m], speed [m/s] or none: magnitude at the nodes")
+                  "w_lambda, w_mu, w (both) [Pa m], speed [m/s] or none: magnitude at\n"
+                  "the nodes; a scene's default is w_lambda")
       ->type_name("NAME")
       ->group(group);
   command
-      .add_option("--range", texts.range, "colour range in that unit, or auto: one for the whole sequence")
+      .add_option("--range", texts.range,
+                  "colour range in that unit, or auto, a scene's default: that of the\nwhole sequence")
       ->type_name("LOW,HIGH|auto")
       ->group(group);
   command
-      .add_option("--backend", texts.backend, "auto, osmesa or egl; auto: OSMesa where installed, else EGL")
+      .add_option("--backend", texts.backend,
+                  "auto, osmesa or egl; default auto: OSMesa where installed, else EGL")
       ->type_name("NAME")
       ->group(group);
   command
@@ -148,15 +157,33 @@ void check_first_word(const std::vector<std::string>& words) {
 }
 
 [[noreturn]] void refuse_extra(const std::string& extra, const CLI::App* command) {
-  const std::string help = command ? fmt::format("rheo {} --help", command->get_name()) : "rheo --help";
+  const std::string option = extra.substr(0, extra.find('='));
+  if (command == nullptr)
+    throw Failure(ExitCode::usage,
+                  fmt::format("option '{}' comes after the command: rheo COMMAND SCENE {} (see rheo "
+                              "--help)",
+                              option, option));
+  const std::string help = fmt::format("see rheo {} --help", command->get_name());
   if (!extra.starts_with('-'))
     throw Failure(ExitCode::usage,
-                  fmt::format("unexpected '{}': one scene file at a time (see {})", extra, help));
-  const std::string option = extra.substr(0, extra.find('='));
-  const std::string close = command ? nearest(option, option_names(*command)) : "";
+                  fmt::format("unexpected '{}': one scene file at a time ({})", extra, help));
+  const std::string close = nearest(option, option_names(*command));
   throw Failure(ExitCode::usage,
-                fmt::format("unknown option '{}'{} (see {})", option,
+                fmt::format("unknown option '{}'{} ({})", option,
                             close.empty() ? "" : fmt::format(", did you mean {}?", close), help));
+}
+
+// CLI11's complaint in the words of this program.
+[[noreturn]] void refuse_parse(const CLI::ParseError& error, const CLI::App* command) {
+  const std::string help = command ? fmt::format("rheo {} --help", command->get_name()) : "rheo --help";
+  std::string text = error.what();
+  if (error.get_name() == "RequiredError") text = "SCENE is missing: name a scene file";
+  if (error.get_name() == "ArgumentMismatch") {
+    const std::string option = text.substr(0, text.find(':'));
+    text = option +
+           (text.find("At Most") != std::string::npos ? ": given more than once" : ": its value is missing");
+  }
+  throw Failure(ExitCode::usage, fmt::format("{} (see {})", text, help));
 }
 
 Options read_values(const Texts& texts, const CLI::App& command) {
@@ -229,10 +256,9 @@ std::optional<Options> read_command_line(int argc, char** argv) {
     fmt::print("{}\n", version.what());
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
-    const std::vector<std::string> extras = program.remaining(true);
-    if (!extras.empty()) refuse_extra(extras.front(), chosen());
-    const std::string help = chosen() ? fmt::format("rheo {} --help", chosen()->get_name()) : "rheo --help";
-    throw Failure(ExitCode::usage, fmt::format("{} (see {})", error.what(), help));
+    if (const auto before = program.remaining(false); !before.empty()) refuse_extra(before.front(), nullptr);
+    if (const auto extras = program.remaining(true); !extras.empty()) refuse_extra(extras.front(), chosen());
+    refuse_parse(error, chosen());
   }
   if (!chosen())
     throw Failure(ExitCode::usage,

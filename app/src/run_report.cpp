@@ -22,6 +22,7 @@ Json settings_of(const Options& options, const rheo::Simulation& simulation, con
   json["integrator"] = name_of(time.integrator);
   json["step_asked"] = time.step;
   json["step_bound"] = number(simulation.step_bound());
+  json["largest_step"] = number(report.largest_step);
   json["stable_step"] = number(simulation.stable_step());
   json["duration"] = time.duration;
   json["frame_rate"] = time.frame_rate;

@@ -1,9 +1,9 @@
 // run.json: what is needed to do a run again and what it cost.
 //
 //   rheo, compiler, build_type, command_line, scene_file, scene (its text), title
-//   settings: integrator, step_asked (0: auto), step_bound, stable_step, duration, frame_rate, threads,
-//   renderer mesh: nodes, triangles; outputs; files; counters; seconds by phase; notes; warnings;
-//   exit_status; divergence or null
+//   settings: integrator, step_asked (0: auto), step_bound, largest_step (used), stable_step, duration,
+//   frame_rate, threads, renderer mesh: nodes, triangles; outputs; files; counters; seconds by phase; notes;
+//   warnings; exit_status; divergence or null
 //
 // Units    SI
 // Errors   rheo::Error::Kind::file
@@ -26,6 +26,7 @@ struct RunReport {
   std::string scene_text;
   std::string renderer;  // empty: nothing was drawn
   std::int64_t outputs = 0;
+  double largest_step = 0.0;  // [s]
   std::vector<std::string> files;
   std::vector<std::string> warnings;
   Seconds seconds;

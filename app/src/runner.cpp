@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -41,7 +41,8 @@ struct Sink {
 };
 
 struct Passed {
-  std::int64_t outputs = 0;  // completed
+  std::int64_t outputs = 0;   // completed
+  double largest_step = 0.0;  // [s], the largest mean step between two outputs
   std::optional<rheo::Divergence> divergence;
 };
 
@@ -50,11 +51,16 @@ Passed simulate(rheo::Simulation& simulation, const std::vector<Sink>& sinks, Pr
                 Seconds& seconds) {
   const rheo::TimeSettings& time = simulation.scene().time;
   const std::int64_t count = rheo::output_count(time);
+  Passed passed;
   const auto advance = [&](double t) {
     const Timed timed(seconds.simulate);
-    return simulation.advance(t);
+    const double start = simulation.time();
+    const std::int64_t steps = simulation.counters().steps;
+    auto divergence = simulation.advance(t);
+    if (const auto taken = static_cast<double>(simulation.counters().steps - steps); taken > 0.0)
+      passed.largest_step = std::max(passed.largest_step, (simulation.time() - start) / taken);
+    return divergence;
   };
-  Passed passed;
   progress.begin("simulating", count);
   for (std::int64_t k = 0; k < count; ++k) {
     passed.divergence = advance(rheo::output_time(time, k));
@@ -168,6 +174,7 @@ void run_scene(const Options& options) {
 
   folder.made("run.json");
   report.outputs = passed.outputs;
+  report.largest_step = passed.largest_step;
   report.files = folder.all_made();
   report.warnings = watch.warnings();
   report.divergence = passed.divergence;

@@ -1,0 +1,61 @@
+// A run without frames touches no graphics library: the program is linked to none, and `run` opens none.
+#include <gmock/gmock.h>
+
+#include <cstdio>
+#include <regex>
+
+#include "program.hpp"
+
+namespace app_tests {
+namespace {
+
+class GraphicsFree : public ProgramTest {
+ protected:
+  // Names of libraries that draw, in the dynamic loader's words.
+  static std::vector<std::string> graphics_in(const std::string& text) {
+    static const std::regex graphics(
+        "lib(GL|EGL|OpenGL|OSMesa|GLX|glapi|gbm|X11|xcb|wayland|glfw|LLVM|gallium)[^/ ]*");
+    return {std::sregex_token_iterator(text.begin(), text.end(), graphics), {}};
+  }
+
+  // The loader's log of one command, over all its processes.
+  std::string loader_log(const std::vector<std::string>& arguments) {
+    const fs::path log = folder() / "loader";
+    const Finished finished = rheo(arguments, {{"LD_DEBUG", "libs"}, {"LD_DEBUG_OUTPUT", log.string()}});
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    std::string text;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder()))
+      if (entry.path().filename().string().starts_with("loader.")) {
+        text += read_text(entry.path());
+        fs::remove(entry.path());
+      }
+    EXPECT_THAT(text, testing::HasSubstr("libc.so"));  // the log is one
+    return text;
+  }
+};
+
+TEST_F(GraphicsFree, TheProgramIsLinkedToNoGraphicsLibrary) {
+  std::FILE* ldd = popen("ldd '" RHEO_PROGRAM "'", "r");
+  ASSERT_NE(ldd, nullptr);
+  std::string text;
+  for (int c = std::fgetc(ldd); c != EOF; c = std::fgetc(ldd)) text += static_cast<char>(c);
+  pclose(ldd);
+  EXPECT_THAT(text, testing::HasSubstr("libc.so"));
+  EXPECT_THAT(graphics_in(text), testing::IsEmpty());
+}
+
+TEST_F(GraphicsFree, RunAndCheckOpenNone) {
+  write("beam.toml", small_beam());
+  EXPECT_THAT(graphics_in(loader_log({"run", "beam.toml", "--vtu"})), testing::IsEmpty());
+  EXPECT_THAT(graphics_in(loader_log({"check", "beam.toml"})), testing::IsEmpty());
+}
+
+#ifdef RHEO_HAS_RENDERER
+TEST_F(GraphicsFree, RenderOpensOneWhichShowsThatTheLogWouldTell) {
+  write("beam.toml", small_beam());
+  EXPECT_THAT(graphics_in(loader_log({"render", "beam.toml"})), testing::Not(testing::IsEmpty()));
+}
+#endif
+
+}  // namespace
+}  // namespace app_tests

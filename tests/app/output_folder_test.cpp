@@ -1,0 +1,107 @@
+// The output folder: never foreign files, never half a run.
+#include <gmock/gmock.h>
+
+#include "program.hpp"
+
+namespace app_tests {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::Not;
+
+class OutputFolder : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write("beam.toml", small_beam());
+  }
+};
+
+TEST_F(OutputFolder, DefaultsToOutAndTheScenesStem) {
+  ASSERT_EQ(rheo({"run", "beam.toml"}).exit_code, 0);
+  EXPECT_THAT(files(), ElementsAre("beam.toml", "out", "out/beam", "out/beam/history.csv",
+                                   "out/beam/run.json", "out/beam/state.csv"));
+}
+
+TEST_F(OutputFolder, IsMadeWithItsParentsAndATrailingSlash) {
+  ASSERT_EQ(rheo({"run", "beam.toml", "-o", "a/b c/d/"}).exit_code, 0);
+  EXPECT_THAT(files(), Contains("a/b c/d/state.csv"));
+}
+
+TEST_F(OutputFolder, AnEmptyOneIsUsed) {
+  fs::create_directory(folder() / "results");
+  EXPECT_EQ(rheo({"run", "beam.toml", "-o", "results"}).exit_code, 0);
+}
+
+TEST_F(OutputFolder, AnEarlierRunIsNotOverwrittenWithoutForce) {
+  ASSERT_EQ(rheo({"run", "beam.toml", "-o", "results"}).exit_code, 0);
+  const std::string before = read_text(folder() / "results/run.json");
+  expect_failure(rheo({"run", "beam.toml", "-o", "results"}), 2, {"results", "earlier run", "--force"});
+  EXPECT_EQ(read_text(folder() / "results/run.json"), before);
+}
+
+TEST_F(OutputFolder, ForeignContentIsRefusedWithoutForce) {
+  write("results/thesis.tex", "years of work");
+  expect_failure(rheo({"run", "beam.toml", "-o", "results"}), 2, {"results", "thesis.tex", "--force"});
+  EXPECT_THAT(files(), ElementsAre("beam.toml", "results", "results/thesis.tex"));
+}
+
+TEST_F(OutputFolder, ForceRemovesWhatRheoWroteAndNothingElse) {
+  for (const char* own : {"state.csv", "history.csv", "run.json", "sheet.png", "residual.png",
+                          "history.csv.part", "frames/frame_00000.png", "frames/frame_123456.png",
+                          "frames/frame_00001.png.part", "vtu/state_00000.vtu", "vtu/state.pvd"})
+    write(std::string("results/") + own, "old");
+  const std::vector<std::string> foreign{
+      "state.csv.bak",      "notes.txt",       "frames/frame_0.png",
+      "frames/frame_x.png", "frames/film.mp4", "vtu/view.pvsm",
+      "deeper/run.json",    "frame_00000.png", "frames/frame_00000.png.old"};
+  for (const std::string& name : foreign) write("results/" + name, "mine");
+  ASSERT_EQ(rheo({"run", "beam.toml", "-o", "results", "--force"}).exit_code, 0);
+  for (const std::string& name : foreign) EXPECT_EQ(read_text(folder() / "results" / name), "mine") << name;
+  for (const char* stale :
+       {"sheet.png", "residual.png", "history.csv.part", "frames/frame_00000.png", "frames/frame_123456.png",
+        "frames/frame_00001.png.part", "vtu/state_00000.vtu", "vtu/state.pvd"})
+    EXPECT_FALSE(fs::exists(folder() / "results" / stale)) << stale;
+  for (const char* fresh : {"state.csv", "history.csv", "run.json"})
+    EXPECT_NE(read_text(folder() / "results" / fresh), "old") << fresh;
+}
+
+TEST_F(OutputFolder, ForceRemovesSubfoldersThatItEmptied) {
+  write("results/frames/frame_00000.png", "old");
+  ASSERT_EQ(rheo({"run", "beam.toml", "-o", "results", "--force"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder() / "results/frames"));
+}
+
+TEST_F(OutputFolder, ForceKeepsTheOldResultsWhenTheNewSceneIsRefused) {
+  ASSERT_EQ(rheo({"run", "beam.toml", "-o", "results"}).exit_code, 0);
+  const std::string before = read_text(folder() / "results/state.csv");
+  write("beam.toml", small_beam_with("density", "densty"));
+  expect_failure(rheo({"run", "beam.toml", "-o", "results", "--force"}), 2, {"densty"});
+  EXPECT_EQ(read_text(folder() / "results/state.csv"), before);
+}
+
+TEST_F(OutputFolder, AFileInItsPlaceIsRefused) {
+  expect_failure(rheo({"run", "beam.toml", "-o", "beam.toml"}), 4, {"beam.toml", "not a folder"});
+  EXPECT_EQ(read_text(folder() / "beam.toml"), small_beam());
+}
+
+// Below a file and in /proc nobody can write, not even root, as which these tests may run.
+TEST_F(OutputFolder, APlaceThatCannotBeWrittenIsRefused) {
+  expect_failure(rheo({"run", "beam.toml", "-o", "beam.toml/results"}), 4, {"beam.toml/results"});
+  expect_failure(rheo({"run", "beam.toml", "-o", "/proc/rheo/results"}), 4, {"/proc/rheo"});
+  expect_failure(rheo({"run", "beam.toml", "-o", "/proc", "--force"}), 4, {"/proc", "cannot write"});
+  EXPECT_THAT(files(), ElementsAre("beam.toml"));
+}
+
+TEST_F(OutputFolder, AFolderInTheWayOfAResultIsNamed) {
+  write("results/state.csv/precious.txt", "mine");
+  const Finished finished = rheo({"run", "beam.toml", "-o", "results", "--force"});
+  expect_failure(finished, 4, {"state.csv"});
+  EXPECT_EQ(read_text(folder() / "results/state.csv/precious.txt"), "mine");
+  EXPECT_THAT(files(), Not(Contains(EndsWith(".part"))));
+}
+
+}  // namespace
+}  // namespace app_tests

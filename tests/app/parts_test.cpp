@@ -1,0 +1,89 @@
+// Parts of the program that a whole run cannot reach or cannot show.
+#include <gmock/gmock.h>
+
+#include <numeric>
+
+#include "frame_store.hpp"
+#include "nearest.hpp"
+#include "program.hpp"
+#include "sheet_frames.hpp"
+
+namespace app_tests {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::SizeIs;
+
+TEST(SheetFrames, AreEquallySpacedWhereTheRunAllowsIt) {
+  // 5 s at 60 a second: every half second, the release at 1 s among them.
+  EXPECT_THAT(app::sheet_frames(301, 60.0, {1.0}, std::nullopt),
+              ElementsAre(0, 30, 60, 90, 120, 150, 180, 210, 240, 270, 300));
+}
+
+TEST(SheetFrames, IncludeFirstLastAndEventsOfAnyRun) {
+  for (const std::int64_t outputs : {9, 10, 47, 101, 302, 1234}) {
+    const double rate = 30.0;
+    const std::int64_t event = outputs / 3;
+    const auto frames = app::sheet_frames(outputs, rate, {static_cast<double>(event) / rate}, std::nullopt);
+    EXPECT_GE(frames.size(), 8u);
+    EXPECT_LE(frames.size(), 12u);
+    EXPECT_EQ(frames.front(), 0);
+    EXPECT_EQ(frames.back(), outputs - 1);
+    EXPECT_THAT(frames, Contains(event));
+    for (std::size_t i = 1; i < frames.size(); ++i) EXPECT_LT(frames[i - 1], frames[i]);
+  }
+}
+
+TEST(SheetFrames, AreAllOutputsOfAShortRunAndAsManyAsWanted) {
+  EXPECT_THAT(app::sheet_frames(3, 60.0, {}, std::nullopt), ElementsAre(0, 1, 2));
+  EXPECT_THAT(app::sheet_frames(1, 60.0, {}, 5), ElementsAre(0));
+  EXPECT_THAT(app::sheet_frames(301, 60.0, {}, 4), ElementsAre(0, 100, 200, 300));
+}
+
+TEST(EventTimes, AreTheInnerEndsOfWindowsAndKeys) {
+  rheo::Scene scene;
+  scene.time.duration = 4.0;
+  scene.fixes.resize(1);
+  scene.fixes[0].window = {0.0, 3.0};
+  scene.tractions.resize(1);
+  scene.tractions[0].window = {1.0, rheo::forever};
+  scene.moves.resize(1);
+  scene.moves[0].window = {1.0, 9.0};
+  for (const double t : {0.5, 2.0, 5.0}) scene.moves[0].keys.push_back({t, {}, {}});
+  EXPECT_THAT(app::event_times(scene), ElementsAre(0.5, 1.0, 2.0, 3.0));
+}
+
+TEST(Nearest, FindsSlipsOfThePenAndLeavesStrangersAlone) {
+  const std::vector<std::string> known{"run", "render", "check"};
+  EXPECT_EQ(app::nearest("rnder", known), "render");
+  EXPECT_EQ(app::nearest("chekc", known), "check");
+  EXPECT_EQ(app::nearest("simulate", known), "");
+}
+
+class FrameStore : public ProgramTest {};
+
+TEST_F(FrameStore, GivesRecordsBackFromMemoryAndFromAFileThatHasNoName) {
+  for (const std::int64_t memory_limit : {std::int64_t{1} << 20, std::int64_t{0}}) {
+    app::FrameStore store(folder(), 100, 20, memory_limit);
+    std::vector<float> record(100);
+    for (int k = 0; k < 20; ++k) {
+      std::iota(record.begin(), record.end(), static_cast<float>(1000 * k));
+      store.append(record);
+    }
+    EXPECT_EQ(store.count(), 20);
+    for (const int k : {19, 0, 7}) {
+      store.read(k, record);
+      EXPECT_EQ(record.front(), static_cast<float>(1000 * k));
+      EXPECT_EQ(record.back(), static_cast<float>(1000 * k + 99));
+    }
+    EXPECT_THAT(files(), SizeIs(0));
+  }
+}
+
+TEST_F(FrameStore, SaysBeforehandThatTheDiskIsTooSmall) {
+  EXPECT_THROW(app::FrameStore(folder(), std::size_t{1} << 40, std::int64_t{1} << 40), std::exception);
+}
+
+}  // namespace
+}  // namespace app_tests

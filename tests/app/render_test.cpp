@@ -1,0 +1,141 @@
+// The command render: a frame per output, the sheet, the plot; the same pictures whatever draws and encodes
+// them.
+#include <gmock/gmock.h>
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace app_tests {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
+using testing::SizeIs;
+using testing::StartsWith;
+
+class Render : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write("beam.toml", small_beam());
+  }
+
+  Finished render(const std::string& out, std::vector<std::string> options = {}) {
+    options.insert(options.begin(), {"render", "beam.toml", "-o", out});
+    Finished finished = rheo(options);
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    return finished;
+  }
+
+  std::vector<std::string> frames(const std::string& out) const {
+    std::vector<std::string> names;
+    for (const std::string& name : files())
+      if (name.starts_with(out + "/frames/")) names.push_back(name);
+    return names;
+  }
+};
+
+// Width and height in a PNG's header (ISO 15948: after the signature, the length and "IHDR").
+std::pair<std::uint32_t, std::uint32_t> png_size(const std::string& bytes) {
+  EXPECT_THAT(bytes, StartsWith("\x89PNG\r\n\x1a\n"));
+  const auto number = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes.at(i));
+    return value;
+  };
+  return {number(16), number(20)};
+}
+
+TEST_F(Render, WritesAFramePerOutputTheSheetThePlotAndWhatRunWrites) {
+  const Finished finished = render("r");
+  EXPECT_EQ(finished.err, "");
+  EXPECT_THAT(frames("r"),
+              AllOf(SizeIs(11), Contains("r/frames/frame_00000.png"), Contains("r/frames/frame_00010.png")));
+  EXPECT_THAT(files(),
+              AllOf(Contains("r/sheet.png"), Contains("r/residual.png"), Contains("r/state.csv"),
+                    Contains("r/history.csv"), Contains("r/run.json"), Not(Contains(HasSubstr(".part")))));
+  for (const char* part :
+       {"r/sheet.png", "r/residual.png", "frame_00000.png ... frame_00010.png (11 files)", "frames/s"})
+    EXPECT_THAT(finished.out, HasSubstr(part));
+  const auto json = nlohmann::json::parse(read_text(folder() / "r/run.json"));
+  EXPECT_THAT(json.at("files").dump(), HasSubstr("frames/frame_00010.png"));
+  EXPECT_TRUE(json.at("settings").at("renderer").is_string());
+  EXPECT_GT(json.at("seconds").at("draw").get<double>(), 0.0);
+}
+
+TEST_F(Render, NumbersAreThoseOfRun) {
+  render("drawn");
+  ASSERT_EQ(rheo({"run", "beam.toml", "-o", "plain"}).exit_code, 0);
+  for (const char* name : {"state.csv", "history.csv"})
+    EXPECT_EQ(read_text(folder() / "drawn" / name), read_text(folder() / "plain" / name)) << name;
+}
+
+TEST_F(Render, PicturesHaveTheSceneSizeOrTheOneAskedFor) {
+  render("scene");
+  render("asked", {"--size", "200x120"});
+  EXPECT_EQ(png_size(read_text(folder() / "scene/frames/frame_00003.png")), std::pair(320u, 180u));
+  EXPECT_EQ(png_size(read_text(folder() / "asked/frames/frame_00003.png")), std::pair(200u, 120u));
+}
+
+TEST_F(Render, FramesDoNotDependOnThreadsOrRepetition) {
+  render("one", {"--threads", "1"});
+  render("three", {"--threads", "3"});
+  ASSERT_THAT(frames("one"), SizeIs(11));
+  for (const std::string& name : frames("one"))
+    EXPECT_EQ(read_text(folder() / name), read_text(folder() / ("three" + name.substr(3)))) << name;
+  for (const char* name : {"sheet.png", "residual.png"})
+    EXPECT_EQ(read_text(folder() / "one" / name), read_text(folder() / "three" / name)) << name;
+}
+
+TEST_F(Render, OsmesaAndEglDrawTheSame) {
+  render("osmesa", {"--backend", "osmesa"});
+  render("egl", {"--backend", "egl"});
+  ASSERT_THAT(frames("egl"), SizeIs(11));
+  // One Mesa behind both: the same rasteriser, the same bytes.
+  for (const std::string& name : frames("egl"))
+    EXPECT_EQ(read_text(folder() / name), read_text(folder() / ("osmesa" + name.substr(3)))) << name;
+  const auto json = nlohmann::json::parse(read_text(folder() / "egl/run.json"));
+  EXPECT_THAT(json.at("settings").at("renderer").get<std::string>(), HasSubstr("EGL"));
+}
+
+TEST_F(Render, ColourAndRangeChangeThePicture) {
+  render("w_lambda");
+  const std::string reference = read_text(folder() / "w_lambda/frames/frame_00004.png");
+  for (const char* color : {"w_mu", "w", "speed", "none"}) {
+    render(color, {"--color", color});
+    EXPECT_NE(read_text(folder() / color / "frames/frame_00004.png"), reference) << color;
+  }
+  render("range", {"--range", "0,100"});
+  EXPECT_NE(read_text(folder() / "range/frames/frame_00004.png"), reference);
+}
+
+TEST_F(Render, DrawsTheFramesBeforeADivergence) {
+  write("late.toml", small_beam_with("until = 0.2", "from = 3.5\nuntil = 9"));
+  // At rest until the load at 3.5 s; then every step of 0.5 s multiplies the error.
+  const Finished finished = rheo({"render", "late.toml", "-o", "r", "--step", "0.5", "--frame-rate", "1",
+                                  "--duration", "100", "--allow-unstable", "--backend", "osmesa"});
+  expect_failure(finished, 3, {"diverged"});
+  EXPECT_GE(frames("r").size(), 4u);
+  EXPECT_EQ(frames("r").size(), read_table(folder() / "r/history.csv")["t"].size());
+  EXPECT_THAT(files(),
+              AllOf(Contains("r/sheet.png"), Contains("r/residual.png"), Not(Contains("r/state.csv"))));
+}
+
+TEST_F(Render, QuietIsSilent) {
+  const Finished finished = render("r", {"--quiet"});
+  EXPECT_EQ(finished.out + finished.err, "");
+}
+
+TEST_F(Render, ARestingSceneIsDrawnToo) {
+  write("rest.toml", small_beam_with("vector = [5.0, 0.0]", "vector = [0.0, 0.0]"));
+  const Finished finished = rheo({"render", "rest.toml", "-o", "r"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_THAT(frames("r"), SizeIs(11));
+}
+
+}  // namespace
+}  // namespace app_tests

@@ -1,0 +1,196 @@
+// What a run leaves in its folder: names, columns, rows, and numbers that balance.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace app_tests {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+using testing::SizeIs;
+
+class Results : public ProgramTest {
+ protected:
+  // Runs the small beam into `out` with more options.
+  void run(const std::string& out, std::vector<std::string> options = {}) {
+    write("beam.toml", small_beam());
+    options.insert(options.begin(), {"run", "beam.toml", "-o", out});
+    const Finished finished = rheo(options);
+    ASSERT_EQ(finished.exit_code, 0) << finished.err;
+    EXPECT_EQ(finished.err, "");
+  }
+};
+
+TEST_F(Results, HistoryHasARowPerOutputAndTheProbesColumns) {
+  run("r");
+  const std::vector<std::string> lines = lines_of(read_text(folder() / "r/history.csv"));
+  EXPECT_EQ(lines.at(0),
+            "t,w_lambda_norm,w_mu_norm,u_max,kinetic,stored,dissipated,work,grip_ux,grip_uy,grip_fx,grip_fy");
+  auto table = read_table(folder() / "r/history.csv");
+  ASSERT_THAT(table["t"], SizeIs(11));  // 0.5 s at 20 per second, both ends
+  for (std::size_t k = 0; k < 11; ++k) EXPECT_NEAR(table["t"][k], 0.05 * static_cast<double>(k), 1e-15);
+  EXPECT_EQ(table["w_lambda_norm"][0], 0.0);
+  EXPECT_EQ(table["u_max"][0], 0.0);
+}
+
+TEST_F(Results, KineticStoredDissipatedAndWorkBalance) {
+  run("r", {"--step", "5e-4"});
+  auto table = read_table(folder() / "r/history.csv");
+  ASSERT_THAT(table["t"], SizeIs(11));
+  const double scale = *std::ranges::max_element(table["work"]);
+  ASSERT_GT(scale, 0.0);
+  for (std::size_t k = 0; k < 11; ++k) {
+    const double left = table["kinetic"][k] + table["stored"][k] + table["dissipated"][k] - table["work"][k];
+    // (omega_max h)^4 is about 1e-7 here: the quadratures are of RK4's order.
+    EXPECT_NEAR(left, 0.0, 1e-6 * scale) << "row " << k;
+  }
+}
+
+TEST_F(Results, ProbeForceIsTheTractionWhileItActsAndNothingAfter) {
+  run("r");
+  auto table = read_table(folder() / "r/history.csv");
+  ASSERT_THAT(table["grip_fx"], SizeIs(11));
+  // 5 Pa on 0.25 m of edge, 1 m thick; the edge is free, so no reaction is in it.
+  EXPECT_NEAR(table["grip_fx"][2], 1.25, 1e-12);
+  EXPECT_NEAR(table["grip_fx"][8], 0.0, 1e-12);
+  EXPECT_GT(table["grip_ux"][3], table["grip_ux"][1]);
+}
+
+TEST_F(Results, StateHasARowPerNodeAtItsReferencePosition) {
+  run("r");
+  EXPECT_EQ(lines_of(read_text(folder() / "r/state.csv")).at(0),
+            "node,x,y,ux,uy,vx,vy,w_lambda_x,w_lambda_y,w_mu_x,w_mu_y");
+  auto table = read_table(folder() / "r/state.csv");
+  ASSERT_THAT(table["node"], SizeIs(10));
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_EQ(table["node"][i], static_cast<double>(i));
+    EXPECT_NEAR(table["x"][i], 0.25 * static_cast<double>(i % 5), 1e-15);
+    EXPECT_NEAR(table["y"][i], 0.25 * static_cast<double>(i / 5), 1e-15);
+  }
+  EXPECT_EQ(table["ux"][0], 0.0);
+  EXPECT_NE(table["ux"][4], 0.0);
+}
+
+TEST_F(Results, StateIsThatOfTheDurationEvenWhereNoOutputFallsOnIt) {
+  run("whole", {"--duration", "0.33", "--step", "1e-3"});
+  run("sparse", {"--duration", "0.33", "--step", "1e-3", "--frame-rate", "3.1"});
+  auto whole = read_table(folder() / "whole/state.csv"), sparse = read_table(folder() / "sparse/state.csv");
+  EXPECT_THAT(read_table(folder() / "sparse/history.csv")["t"], SizeIs(2));
+  for (std::size_t i = 0; i < 10; ++i)
+    EXPECT_NEAR(whole["ux"][i], sparse["ux"][i],
+                1e-6 * std::abs(whole["ux"][4]));  // other step grids, both RK4 at 1 ms
+}
+
+TEST_F(Results, ASecondRunIsIdenticalToTheLastByte) {
+  run("a", {"--vtu"});
+  run("b", {"--vtu", "--threads", "7"});
+  for (const char* name : {"state.csv", "history.csv", "vtu/state_00010.vtu", "vtu/state.pvd"})
+    EXPECT_EQ(read_text(folder() / "a" / name), read_text(folder() / "b" / name)) << name;
+}
+
+TEST_F(Results, VtuSeriesHasAFilePerOutputAndAnIndex) {
+  run("r", {"--vtu"});
+  std::vector<std::string> vtu;
+  for (const std::string& name : files())
+    if (name.starts_with("r/vtu/")) vtu.push_back(name);
+  EXPECT_THAT(vtu, AllOf(SizeIs(12), Contains("r/vtu/state_00000.vtu"), Contains("r/vtu/state_00010.vtu"),
+                         Contains("r/vtu/state.pvd")));
+  const std::string index = read_text(folder() / "r/vtu/state.pvd");
+  for (const char* part : {"state_00000.vtu", "state_00010.vtu", "0.5"}) EXPECT_THAT(index, HasSubstr(part));
+  for (const char* part : {"w_lambda", "w_mu", "strain", "stress"})
+    EXPECT_THAT(read_text(folder() / "r/vtu/state_00010.vtu"), HasSubstr(part));
+}
+
+TEST_F(Results, RunJsonHoldsWhatIsNeededToDoItAgain) {
+  run("r", {"--step", "0.002", "--integrator", "rk4"});
+  const auto json = nlohmann::json::parse(read_text(folder() / "r/run.json"));
+  EXPECT_EQ(json.at("scene"), small_beam());
+  EXPECT_EQ(json.at("rheo"), RHEO_VERSION);
+  EXPECT_THAT(json.at("compiler").get<std::string>(), Not(""));
+  EXPECT_EQ(json.at("settings").at("integrator"), "rk4");
+  EXPECT_EQ(json.at("settings").at("step_asked"), 0.002);
+  EXPECT_LE(json.at("settings").at("step_bound").get<double>(), 0.002);
+  EXPECT_LE(json.at("settings").at("largest_step").get<double>(), 0.002 * (1.0 + 1e-9));
+  EXPECT_GT(json.at("settings").at("stable_step").get<double>(), 0.002);
+  EXPECT_EQ(json.at("outputs"), 11);
+  EXPECT_EQ(json.at("exit_status"), 0);
+  EXPECT_TRUE(json.at("divergence").is_null());
+  EXPECT_EQ(json.at("command_line").at(1), "run");
+  EXPECT_EQ(json.at("files"), nlohmann::json({"history.csv", "state.csv", "run.json"}));
+  const std::int64_t steps = json.at("counters").at("steps");
+  EXPECT_GE(steps, 250);  // 0.5 s at 0.002 s at most
+  EXPECT_GE(json.at("counters").at("force_evaluations").get<std::int64_t>(), 4 * steps);
+  for (const char* phase : {"read", "build", "simulate", "draw", "encode", "write"})
+    EXPECT_GE(json.at("seconds").at(phase).get<double>(), 0.0);
+}
+
+TEST_F(Results, TheSceneInRunJsonRunsAgainToTheSameState) {
+  run("first");
+  const auto json = nlohmann::json::parse(read_text(folder() / "first/run.json"));
+  write("again.toml", json.at("scene").get<std::string>());
+  ASSERT_EQ(rheo({"run", "again.toml", "-o", "second"}).exit_code, 0);
+  EXPECT_EQ(read_text(folder() / "first/state.csv"), read_text(folder() / "second/state.csv"));
+}
+
+TEST_F(Results, OverridesChangeTheRun) {
+  run("rk4");
+  run("euler", {"--integrator", "euler", "--step", "1e-4"});
+  run("short", {"--duration", "0.25", "--frame-rate", "40"});
+  EXPECT_NE(read_text(folder() / "rk4/state.csv"), read_text(folder() / "euler/state.csv"));
+  EXPECT_THAT(read_table(folder() / "short/history.csv")["t"], SizeIs(11));
+  const double rk4 = read_table(folder() / "rk4/history.csv")["grip_ux"].at(10);
+  const double euler = read_table(folder() / "euler/history.csv")["grip_ux"].at(10);
+  EXPECT_NEAR(euler, rk4, 0.02 * std::abs(rk4));  // first order: the error is about the step times omega
+}
+
+TEST_F(Results, AreListedAtTheEndAndNothingIsSaidWhenQuiet) {
+  write("beam.toml", small_beam());
+  const Finished spoken = rheo({"run", "beam.toml", "-o", "a", "--vtu"});
+  for (const char* part :
+       {"a/state.csv", "a/history.csv", "a/run.json", "state_00000.vtu ... state_00010.vtu", "steps"})
+    EXPECT_THAT(spoken.out, HasSubstr(part));
+  EXPECT_EQ(spoken.err, "");
+  const Finished quiet = rheo({"run", "beam.toml", "-o", "b", "--quiet"});
+  EXPECT_EQ(quiet.exit_code, 0);
+  EXPECT_EQ(quiet.out + quiet.err, "");
+}
+
+TEST_F(Results, StrainBeyondALinearModelIsWarnedOfOnceWithTimeAndPlace) {
+  // 5 Pa stretch a beam of 7 and 5 Pa by far more than 10 %.
+  write("beam.toml", small_beam_with("until = 0.2", "until = 9"));
+  const Finished finished = rheo({"run", "beam.toml"});
+  EXPECT_EQ(finished.exit_code, 0);
+  std::vector<std::string> warnings;
+  for (const std::string& line : lines_of(finished.out))
+    if (line.starts_with("warning: ") && line.find("strain") != std::string::npos) warnings.push_back(line);
+  ASSERT_THAT(warnings, SizeIs(1));
+  EXPECT_THAT(warnings[0], AllOf(HasSubstr("t = "), HasSubstr("triangle "), HasSubstr("x = ")));
+  const auto json = nlohmann::json::parse(read_text(folder() / "out/beam/run.json"));
+  EXPECT_THAT(json.at("warnings").dump(), HasSubstr("strain"));
+}
+
+TEST_F(Results, NoPartStaysBehind) {
+  run("r", {"--vtu"});
+  for (const std::string& name : files()) EXPECT_THAT(name, Not(HasSubstr(".part")));
+}
+
+TEST_F(Results, AFullStandardOutputIsAFailure) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  write("beam.toml", small_beam());
+  const std::string command =
+      "cd '" + folder().string() + "' && '" RHEO_PROGRAM "' check beam.toml >/dev/full 2>err";
+  const int status = std::system(command.c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 4);
+  EXPECT_THAT(read_text(folder() / "err"), HasSubstr("standard output"));
+}
+
+}  // namespace
+}  // namespace app_tests

@@ -1,0 +1,136 @@
+// Wrong usage: exit code 2, one line that names option, value and what is allowed, and nothing written.
+#include <gmock/gmock.h>
+
+#include "program.hpp"
+
+namespace app_tests {
+namespace {
+
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+using Usage = ProgramTest;
+
+struct Wrong {
+  const char* name;
+  std::vector<std::string> arguments;
+  std::vector<std::string> parts;
+};
+
+void PrintTo(const Wrong& wrong, std::ostream* out) {
+  *out << wrong.name;
+}
+
+std::string name_of_wrong(const testing::TestParamInfo<Wrong>& parameter) {
+  return parameter.param.name;
+}
+
+class WrongUsage : public ProgramTest, public testing::WithParamInterface<Wrong> {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    write("beam.toml", small_beam());
+  }
+};
+
+TEST_P(WrongUsage, IsOneLineAndExitCodeTwo) {
+  const Finished finished = rheo(GetParam().arguments);
+  expect_failure(finished, 2, GetParam().parts);
+  EXPECT_EQ(finished.out, "");
+  EXPECT_THAT(files(), ElementsAre("beam.toml"));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Commands, WrongUsage,
+    testing::Values(
+        Wrong{"NoCommand", {}, {"no command", "run", "render", "check"}},
+        Wrong{"UnknownCommand", {"rnu", "beam.toml"}, {"'rnu'", "did you mean run"}},
+        Wrong{"View", {"view", "beam.toml"}, {"no command 'view'", RHEO_VERSION, "run, render and check"}},
+        Wrong{"Bench", {"bench", "beam.toml"}, {"no command 'bench'", RHEO_VERSION}},
+        Wrong{"NoScene", {"run"}, {"SCENE", "rheo run --help"}}, Wrong{"EmptyScene", {"run", ""}, {"SCENE"}},
+        Wrong{"TwoScenes", {"run", "beam.toml", "other.toml"}, {"'other.toml'", "one scene"}},
+        Wrong{"UnknownOption", {"run", "beam.toml", "--frce"}, {"'--frce'", "--force"}},
+        Wrong{"OptionBeforeCommand", {"--quiet", "run", "beam.toml"}, {"'--quiet'", "after the command"}},
+        Wrong{"PictureOptionForRun", {"run", "beam.toml", "--size", "64x64"}, {"'--size'"}},
+        Wrong{"FolderForCheck", {"check", "beam.toml", "-o", "x"}, {"'-o'"}},
+        Wrong{"MissingValue", {"run", "beam.toml", "--step"}, {"--step", "value is missing"}},
+        Wrong{
+            "GivenTwice", {"run", "beam.toml", "--step", "1", "--step", "2"}, {"--step", "more than once"}}),
+    name_of_wrong);
+
+INSTANTIATE_TEST_SUITE_P(
+    Values, WrongUsage,
+    testing::Values(
+        Wrong{
+            "Integrator", {"run", "beam.toml", "--integrator", "rk5"}, {"--integrator 'rk5'", "rk4, euler"}},
+        Wrong{"StepWord",
+              {"run", "beam.toml", "--step", "small"},
+              {"--step 'small'", "auto", "greater than 0"}},
+        Wrong{"StepNegative", {"run", "beam.toml", "--step", "-1e-3"}, {"--step '-1e-3'", "greater than 0"}},
+        Wrong{"StepZero", {"run", "beam.toml", "--step", "0"}, {"--step '0'"}},
+        Wrong{"StepNan", {"run", "beam.toml", "--step", "nan"}, {"--step 'nan'"}},
+        Wrong{"StepUnit", {"run", "beam.toml", "--step", "1ms"}, {"--step '1ms'"}},
+        Wrong{"DurationZero", {"run", "beam.toml", "--duration", "0"}, {"--duration '0'", "seconds"}},
+        Wrong{"DurationNegative", {"run", "beam.toml", "--duration", "-1"}, {"--duration '-1'"}},
+        Wrong{"DurationInfinite", {"run", "beam.toml", "--duration", "inf"}, {"--duration 'inf'"}},
+        Wrong{"DurationEmpty", {"run", "beam.toml", "--duration", ""}, {"--duration ''"}},
+        Wrong{"FrameRate", {"run", "beam.toml", "--frame-rate", "0"}, {"--frame-rate '0'", "per second"}},
+        Wrong{"Threads", {"run", "beam.toml", "--threads", "0"}, {"--threads '0'", "1 to 64"}},
+        Wrong{"ThreadsFraction", {"run", "beam.toml", "--threads", "1.5"}, {"--threads '1.5'"}},
+        Wrong{"Folder", {"run", "beam.toml", "-o", ""}, {"--output ''"}},
+        Wrong{"SizeHuge",
+              {"render", "beam.toml", "--size", "100000x100000"},
+              {"--size '100000x100000'", "16 to 16384", "1280x720"}},
+        Wrong{"SizeNegative", {"render", "beam.toml", "--size", "-5x100"}, {"--size '-5x100'"}},
+        Wrong{"SizeOneNumber", {"render", "beam.toml", "--size", "640"}, {"--size '640'"}},
+        Wrong{"SizeThreeNumbers", {"render", "beam.toml", "--size", "640x480x3"}, {"--size '640x480x3'"}},
+        Wrong{"Color",
+              {"render", "beam.toml", "--color", "w_lamda"},
+              {"--color 'w_lamda'", "did you mean w_lambda"}},
+        Wrong{"RangeReversed",
+              {"render", "beam.toml", "--range", "2,1"},
+              {"--range '2,1'", "LOW less than HIGH"}},
+        Wrong{"RangeOneNumber", {"render", "beam.toml", "--range", "1"}, {"--range '1'", "auto"}},
+        Wrong{"RangeNan", {"render", "beam.toml", "--range", "0,nan"}, {"--range '0,nan'"}},
+        Wrong{
+            "Backend", {"render", "beam.toml", "--backend", "glx"}, {"--backend 'glx'", "auto, osmesa, egl"}},
+        Wrong{"Sheet", {"render", "beam.toml", "--sheet", "1"}, {"--sheet '1'", "2 to 64"}}),
+    name_of_wrong);
+
+TEST_F(Usage, HelpNamesCommandsExitCodesAndExamples) {
+  const Finished finished = rheo({"--help"});
+  EXPECT_EQ(finished.exit_code, 0);
+  EXPECT_EQ(finished.err, "");
+  for (const char* part : {"run", "render", "check", "Exit codes:", "Examples:"})
+    EXPECT_THAT(finished.out, HasSubstr(part));
+  EXPECT_THAT(finished.out, Not(HasSubstr("view")));
+  EXPECT_THAT(finished.out, Not(HasSubstr("bench")));
+}
+
+TEST_F(Usage, HelpOfACommandNamesAllItsOptions) {
+  const Finished render = rheo({"render", "--help"});
+  EXPECT_EQ(render.exit_code, 0);
+  for (const char* option : {"--integrator", "--step", "--duration", "--frame-rate", "--threads", "--vtu",
+                             "--force", "--allow-unstable", "--quiet", "--size", "--color", "--range",
+                             "--backend", "--sheet", "-o,--output", "seconds", "Pa m"})
+    EXPECT_THAT(render.out, HasSubstr(option));
+  const Finished run = rheo({"run", "--help"});
+  EXPECT_THAT(run.out, Not(HasSubstr("--backend")));
+  // A line that wraps on a common terminal of 120 columns is hard to read.
+  for (const std::string& line : lines_of(render.out)) EXPECT_LE(line.size(), 120u) << line;
+}
+
+TEST_F(Usage, VersionIsTheProjects) {
+  const Finished finished = rheo({"--version"});
+  EXPECT_EQ(finished.exit_code, 0);
+  EXPECT_EQ(finished.out, "rheo " RHEO_VERSION "\n");
+}
+
+TEST_F(Usage, ALineBreakInAPathDoesNotBreakTheLine) {
+  expect_failure(rheo({"run", "no\nsuch\nfile.toml"}), 4, {"no such file.toml"});
+}
+
+}  // namespace
+}  // namespace app_tests
