@@ -39,7 +39,9 @@ Powers EnergyBook::powers(std::span<const double> y, std::span<const double> rat
     p.load_slope = interval.force_rate.dot(u);
     p.load_slope_rate = interval.force_rate.dot(v);
     p.load += (t - interval.begin) * p.load_slope;
+    p.load_power = (t - interval.begin) * p.load_slope_rate;
   }
+  p.load_power += interval.force.dot(v);
   // Constraints work only where what they hold moves (general ones: by their drift). The reaction's slope is the
   // reaction of the operator's derivative, A y' + g'.
   if (interval.moving || !interval.solver->columns().empty()) {
@@ -60,7 +62,9 @@ void EnergyBook::book_step(const Powers& before, const Powers& after, double h) 
   const double loads = after.load - before.load - integral(before.load_slope, after.load_slope,
                                                            before.load_slope_rate, after.load_slope_rate);
   work_ += loads + integral(before.constraints, after.constraints, before.constraints_rate, after.constraints_rate);
-  turnover_ += std::abs(loads) + integral(std::abs(before.constraints), std::abs(after.constraints),
+  // Euler moves a step late: the load's power at both ends belongs to the scale although not to the work.
+  turnover_ += std::abs(loads) + h * (std::abs(before.load_power) + std::abs(after.load_power)) +
+               integral(std::abs(before.constraints), std::abs(after.constraints),
                                           std::abs(before.constraints_rate), -std::abs(after.constraints_rate));
 }
 

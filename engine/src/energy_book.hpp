@@ -18,6 +18,7 @@ struct Powers {
   double dissipated = 0.0, dissipated_rate = 0.0;  // [W], [W/s]
   double constraints = 0.0, constraints_rate = 0.0;
   double load = 0.0;                                // f^T u [J]
+  double load_power = 0.0;                          // f^T v [W]
   double load_slope = 0.0, load_slope_rate = 0.0;   // f'^T u [W], f'^T v [W/s]
 };
 

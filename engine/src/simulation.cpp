@@ -18,7 +18,7 @@ namespace {
 
 constexpr double auto_fraction = 0.25;      // of the stable limit
 constexpr double most_steps = 1e15;         // counted exactly by a double, and beyond any patience
-constexpr double violation_allowed = 0.01;  // of the size of a constraint's terms, where it began fulfilled
+constexpr double violation_allowed = 0.01;  // of a constraint's coefficients times the largest |u|
 
 const Scene& validated(const Scene& scene) {
   validate(scene);
@@ -109,12 +109,13 @@ struct Simulation::Impl {
       }
     }
     owner = std::move(next_owner);
+    const bool other_constraints = next.solver != interval.solver;
     interval = std::move(next);
     index = i;
     physics.enter(interval, base);
     if (begins) project_velocity();
     impose_prescribed();
-    if (begins) note_violations();
+    if (begins || other_constraints) note_violations();
     evaluated = false;
     reaction_known = false;
   }
@@ -203,11 +204,10 @@ struct Simulation::Impl {
     const double energy = book.kinetic(y) + book.stored(y, evaluation);
     const double allowed = book.work() + book.turnover();
     bool fine = energy <= allowed;  // false for NaN
+    const double reach = allowed_violation.empty() ? 0.0 : u().lpNorm<Eigen::Infinity>();
     for (std::size_t j = 0; fine && j < allowed_violation.size(); ++j) {
       double size = 0.0;
-      for (const auto& [dof, coefficient] : interval.solver->columns()[j].entries) {
-        size += std::abs(coefficient * u()[dof]);
-      }
+      for (const auto& entry : interval.solver->columns()[j].entries) size += std::abs(entry.second) * reach;
       fine = std::abs(violation(j)) <= allowed_violation[j] + violation_allowed * size;
     }
     if (fine) return std::nullopt;

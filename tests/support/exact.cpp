@@ -228,11 +228,12 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
     }
     if (last) return result;
 
-    // Augmented state: y, then 1, s, s^2/2, ... s^5/120 with s = t - t0.
+    // Augmented state: y, then 1, s, s^2/2, ... s^5/120 with s = (t - t0) / (t1 - t0), which keeps the numbers level.
+    const double length = t1 - t0;
     constexpr Eigen::Index extra = 6;
     MatrixXd full = MatrixXd::Zero(4 * d + extra, 4 * d + extra);
     full.topLeftCorner(4 * d, 4 * d) = full_operator(matrices_, s.material, a, s.time.baumgarte);
-    for (Eigen::Index k = 1; k < extra; ++k) full(4 * d + k, 4 * d + k - 1) = 1.0;
+    for (Eigen::Index k = 1; k < extra; ++k) full(4 * d + k, 4 * d + k - 1) = 1.0 / length;
     MatrixXd kkt = MatrixXd::Zero(d + count, d + count);
     kkt.topLeftCorner(d, d) = matrices_.mass;
     kkt.topRightCorner(d, count) = -a;
@@ -268,12 +269,12 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
         const auto derivative = [&](Eigen::Index order) { return order < 6 ? b[order] : 0.0; };
         right[d + j] = -(derivative(k + 2) + 2 * omega * derivative(k + 1) + omega * omega * derivative(k));
       }
-      full.block(d, 4 * d + k, d, 1) = lu.solve(right).head(d);
+      full.block(d, 4 * d + k, d, 1) = std::pow(length, k) * lu.solve(right).head(d);
     }
     VectorXd z = VectorXd::Zero(4 * d + extra);
     z.head(4 * d) = y;
     z[4 * d] = 1.0;
-    y = ((t1 - t0) * full).exp().topRows(4 * d) * z;
+    y = (length * full).exp().topRows(4 * d) * z;
   }
 }
 
