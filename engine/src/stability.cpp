@@ -51,7 +51,7 @@ Eigen::Vector3cd mode_roots(double w2, double a, double p, double q) {
 
 }  // namespace
 
-double stable_step(std::complex<double> s, IntegratorKind integrator) {
+double stable_step_of(std::complex<double> s, IntegratorKind integrator) {
   const double size = std::abs(s);
   if (size == 0.0) return infinite;
   if (s.real() > 0.0) return 0.0;
@@ -62,7 +62,7 @@ double stable_step(std::complex<double> s, IntegratorKind integrator) {
 
 double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
   double step = infinite;
-  const auto include = [&](std::complex<double> s) { step = std::min(step, stable_step(s, integrator)); };
+  const auto include = [&](std::complex<double> s) { step = std::min(step, stable_step_of(s, integrator)); };
 
   const double p = spectrum.lambda_on ? spectrum.lambda_rate : 0.0;
   const double q = spectrum.mu_on ? spectrum.mu_rate : 0.0;

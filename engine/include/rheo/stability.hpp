@@ -37,6 +37,6 @@ struct Spectrum {
 double stable_step(const Spectrum& spectrum, IntegratorKind integrator);
 
 // The same for one eigenvalue s (Re s <= 0), used above and by the tests on exact spectra.
-double stable_step(std::complex<double> s, IntegratorKind integrator);
+double stable_step_of(std::complex<double> s, IntegratorKind integrator);
 
 }  // namespace rheo

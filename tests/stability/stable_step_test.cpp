@@ -1,0 +1,238 @@
+// The predicted stable step against the true one, from the eigenvalues of the full operator.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <random>
+
+#include "rheo/error.hpp"
+#include "rheo/simulation.hpp"
+#include "rheo/stability.hpp"
+#include "support/exact.hpp"
+#include "support/scenes.hpp"
+
+namespace rheo::test {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// Largest step that keeps every eigenvalue of the operator of a scene (constraints as they are at t = 0) stable.
+double true_limit(const Scene& scene, IntegratorKind integrator) {
+  const DenseMatrices matrices = dense_matrices(scene.mesh, scene.material);
+  const Eigen::Index d = matrices.mass.rows();
+  std::vector<Eigen::VectorXd> columns;
+  std::vector<char> held(d, 0);
+  for (const Fix& fix : scene.fixes) {
+    for (int node : fix.nodes) {
+      for (int k = 0; k < 2; ++k) {
+        if (fix.axis == (k == 0 ? Axis::y : Axis::x) || held[2 * node + k]) continue;
+        held[2 * node + k] = 1;
+        columns.push_back(Eigen::VectorXd::Unit(d, 2 * node + k));
+      }
+    }
+  }
+  const std::size_t eliminated = scene.time.constraints == ConstraintMethod::automatic ? columns.size() : 0;
+  for (const Constraint& c : scene.constraints) {
+    Eigen::VectorXd a = Eigen::VectorXd::Zero(d);
+    for (const ConstraintTerm& term : c.terms) a[2 * term.node + (term.axis == Axis::y)] += term.coefficient;
+    columns.push_back(a);
+  }
+  Eigen::MatrixXd a(d, static_cast<Eigen::Index>(columns.size()));
+  for (std::size_t k = 0; k < columns.size(); ++k) a.col(static_cast<Eigen::Index>(k)) = columns[k];
+  // With omega = 0 a constraint's own pole is 0 (held exactly); the general ones bring theirs.
+  const bool general = columns.size() > eliminated;
+  double limit = infinite;
+  const Eigen::MatrixXd full = full_operator(matrices, scene.material, a, 0.0);
+  // u feeds on v but nothing on u: leave it out, with it the Jordan blocks at 0.
+  Eigen::MatrixXd op = full.bottomRightCorner(3 * d, 3 * d);
+  // Residual forces in units that give both off-diagonal blocks one size: the eigenvalues stay, their rounding shrinks.
+  const double unit = std::sqrt(op.bottomLeftCorner(2 * d, d).norm() / op.topRightCorner(d, 2 * d).norm());
+  op.topRightCorner(d, 2 * d) *= unit;
+  op.bottomLeftCorner(2 * d, d) /= unit;
+  const auto s = Eigen::EigenSolver<Eigen::MatrixXd>(op, false).eigenvalues();
+  const double largest = s.cwiseAbs().maxCoeff();
+  for (Eigen::Index i = 0; i < s.size(); ++i) {
+    // Rigid motion and held parts: zeros in Jordan blocks, which rounding moves by its square root. None so small limits.
+    if (std::abs(s[i]) < 1e-6 * largest) continue;
+    const double re = std::abs(s[i].real()) < 1e-10 * largest ? 0.0 : s[i].real();
+    limit = std::min(limit, stable_step_of({std::min(re, 0.0), s[i].imag()}, integrator));
+  }
+  if (general && scene.time.baumgarte > 0) {
+    limit = std::min(limit, stable_step_of({-scene.time.baumgarte, 0.0}, integrator));
+  }
+  return limit;
+}
+
+double predicted(const Scene& scene, IntegratorKind integrator) {
+  Scene s = scene;
+  s.time.step = 1e-12;  // never run
+  s.time.duration = 1e-11;
+  return stable_step(Simulation(s, {.allow_unstable = true}).spectrum(), integrator);
+}
+
+TEST(StableStep, IsExactForKnownEigenvalues) {
+  // On the negative real axis RK4 ends at 2.785293563405282, on the imaginary one at sqrt(8), Euler at 2 and 0.
+  EXPECT_NEAR(stable_step_of({-1.0, 0.0}, IntegratorKind::rk4), 2.785293563405282, 1e-9);
+  EXPECT_NEAR(stable_step_of({0.0, 4.0}, IntegratorKind::rk4), std::sqrt(8.0) / 4, 1e-12);
+  EXPECT_DOUBLE_EQ(stable_step_of({-4.0, 0.0}, IntegratorKind::euler), 0.5);
+  EXPECT_DOUBLE_EQ(stable_step_of({0.0, 4.0}, IntegratorKind::euler), 0.0);
+  EXPECT_DOUBLE_EQ(stable_step_of({-1.0, 1.0}, IntegratorKind::euler), 1.0);  // 2 |Re| / |s|^2
+  EXPECT_EQ(stable_step_of({0.0, 0.0}, IntegratorKind::rk4), infinite);
+  EXPECT_EQ(stable_step_of({1e-3, 0.0}, IntegratorKind::rk4), 0.0);
+}
+
+TEST(StableStep, Rk4RegionIsNarrowestBetweenTheAxes) {
+  double narrowest = infinite;
+  for (double angle = 90.1; angle <= 180; angle += 0.1) {
+    narrowest = std::min(narrowest, stable_step_of(std::polar(1.0, angle * M_PI / 180), IntegratorKind::rk4));
+  }
+  EXPECT_NEAR(narrowest, 2.616, 1e-3);
+}
+
+struct Family {
+  std::string name;
+  double lambda_relaxation, mu_relaxation;  // relaxation time times a typical frequency; infinite: elastic
+  friend void PrintTo(const Family& f, std::ostream* out) { *out << f.name; }
+};
+
+Scene random_scene(std::mt19937& random, const Family& family) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const auto decades = [&](double lo, double hi) { return lo * std::pow(hi / lo, unit(random)); };
+  Scene scene;
+  const double size = decades(1e-4, 1e4);
+  const int nx = 2 + static_cast<int>(unit(random) * 4);
+  const int ny = 2 + static_cast<int>(unit(random) * 2);
+  scene.mesh = rectangle({size, size * decades(0.2, 2)}, nx, ny, unit(random) < 0.5 ? Diagonal::rising : Diagonal::alternating);
+  scene.mesh.thickness = decades(1e-3, 10);
+  const double jitter = 0.25 * unit(random) * size / nx;
+  for (Vec2& p : scene.mesh.points) {
+    p.x += jitter * (2 * unit(random) - 1);
+    p.y += jitter * (2 * unit(random) - 1) * 0.5;
+  }
+  prepare(scene.mesh);
+  Material& m = scene.material;
+  m.density = decades(1e-3, 1e4);
+  m.mu_ela = decades(1e-2, 1e7);
+  m.lambda_ela = unit(random) < 0.1 ? 0.0 : m.mu_ela * decades(0.1, 30);
+  m.mass = unit(random) < 0.5 ? Mass::lumped : Mass::consistent;
+  const double frequency = std::sqrt((m.lambda_ela + 2 * m.mu_ela) / m.density) / size;
+  if (m.lambda_ela > 0) m.lambda_vis = m.lambda_ela * family.lambda_relaxation / frequency;
+  m.mu_vis = m.mu_ela * family.mu_relaxation / frequency;
+  const double choice = unit(random);
+  if (choice < 0.6) scene.fixes.push_back({nodes_of(scene.mesh.edge_groups.at("left")), Axis::both, {}, "left"});
+  if (choice < 0.3) scene.fixes.push_back({nodes_of(scene.mesh.edge_groups.at("bottom")), Axis::y, {}, "bottom"});
+  if (unit(random) < 0.3) {
+    scene.constraints.push_back({{{nx - 1, Axis::x, 1.0}, {nx * ny - 1, Axis::x, -1.0}}, 0.0, "tie"});
+    scene.time.baumgarte = frequency * decades(0.1, 100);
+  }
+  scene.time.duration = 1.0;
+  return scene;
+}
+
+class Prediction : public testing::TestWithParam<Family> {};
+
+TEST_P(Prediction, IsNeverAboveTheTruthAndNear) {
+  std::mt19937 random(12345);
+  for (int k = 0; k < 40; ++k) {
+    const Scene scene = random_scene(random, GetParam());
+    for (IntegratorKind integrator : {IntegratorKind::rk4, IntegratorKind::euler}) {
+      const double truth = true_limit(scene, integrator);
+      const double bound = predicted(scene, integrator);
+      const std::string what = "scene " + std::to_string(k) + (integrator == IntegratorKind::rk4 ? " rk4" : " euler");
+      EXPECT_LE(bound, truth * (1 + 1e-6)) << what;
+      if (integrator == IntegratorKind::rk4) {
+        EXPECT_GE(bound, 0.95 * truth) << what;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, Prediction,
+                         testing::Values(Family{"Slow", 10, 20}, Family{"Elastic", infinite, infinite},
+                                         Family{"HalfElastic", infinite, 5}, Family{"Alike", 0.3, 0.3},
+                                         Family{"Fast", 1e-3, 2e-3}, Family{"VeryFast", 1e-6, 1e-6},
+                                         Family{"LambdaFast", 1e-2, 10}, Family{"MuFast", 10, 1e-2}),
+                         [](const auto& c) { return c.param.name; });
+
+TEST(StableStep, UndampedBodyHasNoStableEulerStep) {
+  Scene scene = paper_beam(Mass::lumped);
+  scene.material.lambda_vis = scene.material.mu_vis = infinite;
+  scene.time.integrator = IntegratorKind::euler;
+  scene.time.step = 0.0;
+  try {
+    Simulation simulation(scene);
+    FAIL() << "accepted";
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("not damped"), std::string::npos) << e.what();
+  }
+}
+
+TEST(StableStep, BeyondTheLimitIsRefusedByName) {
+  Scene scene = paper_beam(Mass::lumped);
+  scene.time.step = 0.1;
+  try {
+    Simulation simulation(scene);
+    FAIL() << "accepted";
+  } catch (const Error& e) {
+    EXPECT_EQ(e.kind(), Error::Kind::input);
+    EXPECT_NE(std::string(e.what()).find("step = 0.1 s is beyond the largest stable step of rk4"), std::string::npos)
+        << e.what();
+  }
+  EXPECT_NO_THROW(Simulation(scene, {.allow_unstable = true}));
+}
+
+TEST(StableStep, AutoIsAQuarterOfTheLimitAndDividesEveryInterval) {
+  Scene scene = paper_beam(Mass::consistent);
+  scene.tractions[0].window = {0.1234, 0.5};
+  scene.time.duration = 1.0;
+  Simulation simulation(scene);
+  EXPECT_DOUBLE_EQ(simulation.step_bound(), simulation.stable_step() / 4);
+  for (std::int64_t k = 0; k < output_count(scene.time); ++k) {
+    ASSERT_FALSE(simulation.advance(output_time(scene.time, k)));
+    EXPECT_EQ(simulation.time(), output_time(scene.time, k));
+  }
+  EXPECT_EQ(simulation.counters().steps, simulation.planned_steps());
+}
+
+// At 0.99 of the limit nothing grows; at 1.05 a disturbance does, and the run says so instead of going on.
+TEST(StableStep, DividesStableFromDiverging) {
+  for (Mass mass : {Mass::lumped, Mass::consistent}) {
+    Scene scene = paper_beam(mass);
+    scene.time.frame_rate = 1e-3;  // steps as long as asked for
+    scene.time.duration = 1000.0;
+    const double truth = true_limit(scene, IntegratorKind::rk4);
+    scene.time.step = 0.99 * predicted(scene, IntegratorKind::rk4);
+    Simulation stable(scene);
+    EXPECT_FALSE(stable.advance(100.0));
+    scene.time.step = 1.05 * truth;
+    EXPECT_THROW(Simulation{scene}, Error);
+    Simulation unstable(scene, {.allow_unstable = true});
+    const auto found = unstable.advance(1000.0);
+    ASSERT_TRUE(found);
+    EXPECT_LT(found->t, 100.0);
+    EXPECT_GT(found->energy, found->allowed);
+    EXPECT_GE(found->node, 0);
+    EXPECT_TRUE(std::isfinite(found->energy));
+    EXPECT_NEAR(found->stable_step, truth, 0.05 * truth);
+  }
+}
+
+TEST(StableStep, BaumgarteBeyondItsLimitIsPredictedAndNoticed) {
+  Scene scene = paper_beam(Mass::lumped);
+  scene.time.constraints = ConstraintMethod::baumgarte;
+  scene.time.frame_rate = 1e-3;
+  scene.time.duration = 1000.0;
+  scene.time.baumgarte = 1000.0;
+  scene.time.step = 0.01;  // 0.01 * 1000 is far beyond 2.785
+  EXPECT_THROW(Simulation{scene}, Error);
+  Simulation unstable(scene, {.allow_unstable = true});
+  const auto found = unstable.advance(10.0);
+  ASSERT_TRUE(found);
+  EXPECT_LT(found->t, 1.0);
+  scene.time.step = 2.7e-3;
+  EXPECT_FALSE(Simulation(scene).advance(5.0));
+}
+
+}  // namespace
+}  // namespace rheo::test
