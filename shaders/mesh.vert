@@ -32,7 +32,7 @@ void main() {
   int k = gl_VertexID % 3;
   distances = vec3(k == 0 ? height : 0.0, k == 1 ? height : 0.0, k == 2 ? height : 0.0);
   value = own.z;
-  wire_fade = smoothstep(3.0, 14.0, smallest);
+  wire_fade = smoothstep(2.5, 10.0, smallest);
   // A triangle with a node that is not finite is not drawn: its corners meet in one point outside of the picture.
   bool finite = own.w * next.w * previous.w > 0.5;
   gl_Position = finite ? vec4(a * to_clip.xy + to_clip.zw, 0.0, 1.0) : vec4(-3.0, -3.0, 0.0, 1.0);

@@ -15,9 +15,9 @@
 namespace bodies {
 
 struct Body {
-  std::vector<double> rest;     // n x 2
-  std::vector<int> triangles;   // m x 3
-  std::vector<int> boundary;    // k x 2, interior on the left
+  std::vector<double> rest;    // n x 2
+  std::vector<int> triangles;  // m x 3
+  std::vector<int> boundary;   // k x 2, interior on the left
   std::vector<double> positions;
   std::vector<double> scalar;
   std::vector<int> held;
@@ -113,7 +113,8 @@ inline Body disk(double radius, int rings) {
         const int outer = sector * k + i, inner = sector * (k - 1) + i;
         body.triangles.insert(body.triangles.end(), {node(k, outer), node(k, outer + 1), node(k - 1, inner)});
         if (i + 1 < k) {
-          body.triangles.insert(body.triangles.end(), {node(k, outer + 1), node(k - 1, inner + 1), node(k - 1, inner)});
+          body.triangles.insert(body.triangles.end(),
+                                {node(k, outer + 1), node(k - 1, inner + 1), node(k - 1, inner)});
         }
       }
     }
@@ -124,7 +125,8 @@ inline Body disk(double radius, int rings) {
   return body;
 }
 
-// Pulled to `stretch` times its length along x, narrower in the middle; the left side held, the right one loaded.
+// Pulled to `stretch` times its length along x, narrower in the middle; the left side held, the right one
+// loaded.
 inline Body pulled_beam(int nx, int ny, double stretch, double traction = 10.0) {
   Body body = rectangle(1.0, 0.25, nx, ny);
   for (std::size_t i = 0; i < body.nodes(); ++i) {
@@ -136,7 +138,8 @@ inline Body pulled_beam(int nx, int ny, double stretch, double traction = 10.0) 
   }
   for (int j = 0; j < ny; ++j) body.held.push_back(j * nx);
   for (std::size_t e = 0; e + 1 < body.boundary.size(); e += 2) {
-    const auto a = static_cast<std::size_t>(body.boundary[e]), b = static_cast<std::size_t>(body.boundary[e + 1]);
+    const auto a = static_cast<std::size_t>(body.boundary[e]),
+               b = static_cast<std::size_t>(body.boundary[e + 1]);
     if (body.rest[2 * a] < 1 - 1e-9 || body.rest[2 * b] < 1 - 1e-9 || traction == 0) continue;
     body.arrows.push_back({{(body.positions[2 * a] + body.positions[2 * b]) / 2,
                             (body.positions[2 * a + 1] + body.positions[2 * b + 1]) / 2},

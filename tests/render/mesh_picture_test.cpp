@@ -1,0 +1,480 @@
+#include "render/mesh_picture.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "bodies.hpp"
+#include "colormap.hpp"
+#include "render/context.hpp"
+#include "support.hpp"
+
+namespace {
+
+using bodies::Body;
+using render::Image;
+using support::at;
+using support::Box;
+using support::Pixel;
+
+constexpr int width = 640, height = 360;
+constexpr int heading = 48;  // rows that title and time take at this size
+const double nan = std::numeric_limits<double>::quiet_NaN();
+
+class MeshPictures : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    context_ = support::open(render::Backend::automatic, width, height);
+    if (!context_)
+      GTEST_SKIP() << "no OpenGL for drawing without a window (libosmesa6, or libegl1 with libgl1-mesa-dri)";
+  }
+
+  Image draw(const render::MeshLayout& layout, const render::MeshFrame& frame) {
+    render::MeshPicture picture(*context_, layout);
+    Image image;
+    picture.draw(frame, image);
+    return image;
+  }
+
+  // Everything below the heading that is not paper.
+  static Box drawn(const Image& image) {
+    return support::find(image, [](int, int y, const Pixel& p) {
+      return y > heading && support::distance(p, support::paper) > 60;
+    });
+  }
+
+  std::unique_ptr<render::Context> context_;
+};
+
+Pixel map_colour(double t) {
+  const render::Rgb c = render::make_colormap()[static_cast<std::size_t>(std::lround(255 * t))];
+  return {c[0], c[1], c[2]};
+}
+
+render::MeshLayout coloured(const Body& body) {
+  render::MeshLayout layout = body.layout();
+  layout.scalar_name = "|w|";
+  layout.scalar_unit = "Pa m";
+  return layout;
+}
+
+TEST_F(MeshPictures, CornersAreBackground) {
+  const Body body = bodies::pulled_beam(9, 4, 2);
+  const Image image = draw(coloured(body), body.frame());
+  for (const int x : {0, width - 1}) {
+    for (const int y : {0, height - 1}) EXPECT_EQ(at(image, x, y), support::paper);
+  }
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+    ASSERT_EQ(image.rgba[i], 255) << "pictures are opaque";
+}
+
+TEST_F(MeshPictures, CameraKeepsTheShapeAndFillsThePicture) {
+  for (const double ratio : {0.2, 0.5, 1.0, 2.0, 5.0}) {
+    const Body body = bodies::rectangle(ratio * 3e-3, 3e-3, 4, 4);
+    const Box box = drawn(draw(body.layout(), body.frame()));
+    // The outline's strong part is about a pixel wider than the shape, and each side is cut to whole pixels.
+    EXPECT_NEAR(static_cast<double>(box.width() - 1) / (box.height() - 1), ratio,
+                3.0 * (1 + ratio) / box.height());
+    EXPECT_TRUE(box.width() > 0.8 * width || box.height() > 0.7 * height) << ratio;
+    EXPECT_NEAR((box.x0 + box.x1) / 2.0, width / 2.0, 2) << "centred";
+  }
+}
+
+TEST_F(MeshPictures, TheTopOfTheBodyIsAtTheTop) {
+  Body body = bodies::rectangle(1, 1, 2, 2);
+  const render::MeshLayout layout = body.layout();
+  body.positions[6] = body.positions[4];  // the top right corner moves to the left: the top gets narrow
+  const Image image = draw(layout, body.frame());
+  const Box box = drawn(image);
+  const auto row_width = [&](int y) {
+    int n = 0;
+    for (int x = 0; x < width; ++x) n += support::distance(at(image, x, y), support::paper) > 20;
+    return n;
+  };
+  EXPECT_GT(row_width(box.y1 - 10), 3 * row_width(box.y0 + 30));
+}
+
+TEST_F(MeshPictures, InteriorHasTheColourOfItsValue) {
+  Body body = bodies::rectangle(1, 1, 2, 2);
+  render::MeshLayout layout = coloured(body);
+  layout.range = {-2, 3};
+  for (const double t : {0.0, 0.25, 0.5, 0.8, 1.0}) {
+    body.scalar.assign(4, -2 + 5 * t);
+    const Image image = draw(layout, body.frame());
+    const Box box = support::find(image, [](int x, int y, const Pixel& p) {
+      return y > heading && x < width - 70 && support::distance(p, support::paper) > 60;
+    });
+    const int x = box.x0 + box.width() / 3,
+              y = box.y1 - box.height() / 3 + 20;  // inside of the first triangle
+    EXPECT_LE(support::distance(at(image, x, y), map_colour(t)), 2) << t;
+  }
+}
+
+TEST_F(MeshPictures, ColourIsLinearOverATriangle) {
+  Body body = bodies::rectangle(2, 1, 2, 2);
+  body.scalar = {0, 1, 0, 1};  // x / 2
+  const Image image = draw(coloured(body), body.frame());
+  const Box box = support::find(image, [](int x, int y, const Pixel& p) {
+    return y > heading && x < width - 70 && support::distance(p, support::paper) > 60;
+  });
+  const int y = box.y1 - 12;  // below the diagonal but at the right end
+  for (int x = box.x0 + 10; x < box.x1 - 60; x += 25) {
+    const double t = (x + 0.5 - box.x0 - 1) / (box.width() - 2);
+    EXPECT_LE(support::distance(at(image, x, y), map_colour(t)), 4)
+        << x;  // a pixel is two steps of the map at most
+  }
+}
+
+TEST_F(MeshPictures, ValuesOutsideOfTheRangeAreClamped) {
+  Body body = bodies::rectangle(1, 1, 2, 2);
+  const auto colour = [&](double value, std::array<double, 2> range) {
+    body.scalar.assign(4, value);
+    render::MeshLayout layout = coloured(body);
+    layout.range = range;
+    const Image image = draw(layout, body.frame());
+    return at(image, width / 2 - 70, height / 2 + 60);
+  };
+  EXPECT_LE(support::distance(colour(-100, {0, 1}), map_colour(0)), 2);
+  EXPECT_LE(support::distance(colour(100, {0, 1}), map_colour(1)), 2);
+  EXPECT_LE(support::distance(colour(std::numeric_limits<double>::infinity(), {0, 1}), map_colour(1)), 2);
+  EXPECT_LE(support::distance(colour(nan, {0, 1}), map_colour(0)), 2);
+  EXPECT_LE(support::distance(colour(7, {7, 7}), map_colour(0)), 2) << "a range without extent";
+  EXPECT_LE(support::distance(colour(7, {nan, nan}), map_colour(0)), 2) << "a range without numbers";
+  EXPECT_LE(support::distance(colour(7, {0, std::numeric_limits<double>::infinity()}), map_colour(0)), 2);
+}
+
+TEST_F(MeshPictures, WithoutAScalarThereIsNoBar) {
+  const Body body = bodies::rectangle(1, 1, 2, 2);
+  const Image plain = draw(body.layout(), body.frame());
+  const Image bar = draw(coloured(body), body.frame());
+  const auto right = [](int x, int y, const Pixel& p) {
+    return x > width - 80 && y > heading && support::distance(p, support::paper) > 60;
+  };
+  EXPECT_EQ(support::find(plain, right).count, 0);
+  EXPECT_GT(support::find(bar, right).count, 500);
+}
+
+TEST_F(MeshPictures, HatchesStandOutsideOfHeldEdgesOnly) {
+  Body body = bodies::rectangle(2, 1, 5, 3);
+  const Image without = draw(body.layout(), body.frame());
+  const Box box = drawn(without);
+  for (int j = 0; j < 3; ++j) body.held.push_back(j * 5);
+  const Box hatches = support::find_difference(without, draw(body.layout(), body.frame()));
+  EXPECT_GT(hatches.count, 50);
+  EXPECT_LE(hatches.x1, box.x0 + 2) << "outside, but for the foot under the outline";
+  EXPECT_GE(hatches.x0, box.x0 - 16);
+  EXPECT_GE(hatches.y0, box.y0 - 16);
+  EXPECT_LE(hatches.y1, box.y1 + 16);
+}
+
+TEST_F(MeshPictures, ASingleHeldNodeIsADotAndNoHatch) {
+  Body body = bodies::rectangle(2, 1, 5, 3);
+  const Image without = draw(body.layout(), body.frame());
+  body.held = {0, 7};  // a corner, and one inside
+  const Box dots = support::find_difference(without, draw(body.layout(), body.frame()));
+  EXPECT_GT(dots.count, 10);
+  EXPECT_LT(dots.count, 100);
+}
+
+// On the right side of a 2 x 1 rectangle; the value stands beside the middle one.
+std::vector<render::TractionArrow> three_arrows(double traction) {
+  return {{{2.0, 0.15}, {traction, 0}}, {{2.0, 0.5}, {traction, 0}}, {{2.0, 0.85}, {traction, 0}}};
+}
+
+bool is_red(const Pixel& p) {
+  return p[0] > p[2] + 80;
+}
+
+// The lowest of three_arrows(), of a body that is drawn in `box`.
+Box lowest_arrow(const Image& image, const Box& box) {
+  const int row = box.y1 - static_cast<int>(0.15 * box.height());
+  return support::find(image,
+                       [row](int, int y, const Pixel& p) { return std::abs(y - row) < 12 && is_red(p); });
+}
+
+int red_in_column(const Image& image, const Box& box, int x) {
+  int n = 0;
+  for (int y = box.y0; y <= box.y1; ++y) n += is_red(at(image, x, y));
+  return n;
+}
+
+TEST_F(MeshPictures, ArrowsPullFromTheEdgeAndPressOntoIt) {
+  Body body = bodies::rectangle(2, 1, 5, 3);
+  render::MeshLayout layout = body.layout();
+  layout.arrow_scale = 10;
+  const Image without = draw(layout, body.frame());
+  const Box box = drawn(without);
+  for (const double pull : {10.0, -10.0}) {
+    body.arrows = three_arrows(pull);
+    const Image with = draw(layout, body.frame());
+    const Box arrows = support::find_difference(without, with);
+    EXPECT_GT(arrows.count, 80);
+    EXPECT_GE(arrows.x0, box.x1 - 2) << "either way outside of the body";
+    // The head is the widest: it is far from the edge when pulling, at the edge when pressing.
+    const Box lowest = lowest_arrow(with, box);
+    const int near = red_in_column(with, lowest, lowest.x0 + 3),
+              far = red_in_column(with, lowest, lowest.x1 - 3);
+    if (pull > 0) {
+      EXPECT_LT(near, far);
+    } else {
+      EXPECT_GT(near, far);
+    }
+  }
+}
+
+TEST_F(MeshPictures, ArrowLengthIsProportionalToTheTraction) {
+  Body body = bodies::rectangle(2, 1, 2, 2);
+  render::MeshLayout layout = body.layout();
+  layout.arrow_scale = 10;
+  const Box box = drawn(draw(layout, body.frame()));
+  const auto length = [&](double traction) {
+    body.arrows = three_arrows(traction);
+    return lowest_arrow(draw(layout, body.frame()), box).width();
+  };
+  const int full = length(10);
+  EXPECT_GT(full, 20);
+  EXPECT_NEAR(length(5), full / 2.0, 3);
+}
+
+TEST_F(MeshPictures, TitleAndTimeAreInTheHeading) {
+  const Body body = bodies::rectangle(2, 1, 2, 2);
+  render::MeshLayout layout = body.layout();
+  const Image bare = draw(layout, body.frame(0.5));
+  layout.title = "A title with Ünïcödé";
+  const Box title = support::find_difference(bare, draw(layout, body.frame(0.5)));
+  EXPECT_GT(title.count, 200);
+  EXPECT_LT(title.y1, heading);
+  EXPECT_LT(title.x1, width / 2);
+  const Box time = support::find_difference(bare, draw(body.layout(), body.frame(0.9)));
+  EXPECT_GT(time.count, 10);
+  EXPECT_LT(time.y1, heading);
+  EXPECT_GT(time.x0, width / 2);
+}
+
+TEST_F(MeshPictures, AnEndlessTitleLeavesTheTimeFree) {
+  const Body body = bodies::rectangle(2, 1, 2, 2);
+  render::MeshLayout layout = body.layout();
+  const Image bare = draw(layout, body.frame(0.5));
+  layout.title = std::string(500, 'W');
+  const Box title = support::find_difference(bare, draw(layout, body.frame(0.5)));
+  const Box time = support::find(bare, [](int, int y, const Pixel& p) {
+    return y < heading && support::distance(p, support::paper) > 60;
+  });
+  EXPECT_LT(title.x1, time.x0);
+}
+
+TEST_F(MeshPictures, RestShapeIsAFaintDashedOutline) {
+  Body body = bodies::rectangle(1, 1, 2, 2);
+  for (std::size_t i = 0; i < body.positions.size(); i += 2) body.positions[i] += 2.0;
+  const Image image = draw(body.layout(), body.frame());
+  const Box solid = drawn(image);
+  int dark = 0, light = 0;
+  const int row = (solid.y0 + solid.y1) / 2;
+  const Box rest = support::find(
+      image, [&](int x, int y, const Pixel& p) { return y > heading && x < width / 2 && p[0] < 230; });
+  for (int y = rest.y0 + 5; y < rest.y1 - 5; ++y) {
+    int darkest = 255;
+    for (int x = rest.x0; x < rest.x0 + 3; ++x) darkest = std::min(darkest, at(image, x, y)[0]);
+    (darkest < 200 ? dark : light) += 1;
+    EXPECT_GT(darkest, 90) << "fainter than the outline";
+  }
+  EXPECT_GT(dark, 20);
+  EXPECT_GT(light, 20);
+  EXPECT_EQ(at(image, (rest.x0 + rest.x1) / 2, row), support::paper) << "not filled";
+}
+
+TEST_F(MeshPictures, InvertedTrianglesAreDrawnToo) {
+  Body body = bodies::rectangle(1, 1, 2, 2);
+  render::MeshLayout layout = body.layout();
+  for (std::size_t i = 0; i < body.positions.size(); i += 2)
+    body.positions[i] = 1 - body.positions[i];  // mirrored
+  const Image image = draw(layout, body.frame());
+  EXPECT_GT(support::distance(at(image, width / 2 - 50, height / 2), support::paper), 20);
+  EXPECT_GT(support::distance(at(image, width / 2 + 50, height / 2), support::paper), 20);
+}
+
+TEST_F(MeshPictures, LinesOfADenseMeshFadeInsteadOfTurningItBlack) {
+  const Body coarse = bodies::rectangle(2, 1, 9, 5), dense = bodies::rectangle(2, 1, 401, 201);
+  const auto darkest_inside = [&](const Body& body) {
+    const Image image = draw(body.layout(), body.frame());
+    int darkest = 255;
+    for (int y = 150; y < 250; ++y) {
+      for (int x = 200; x < 440; ++x) darkest = std::min(darkest, at(image, x, y)[2]);
+    }
+    return darkest;
+  };
+  EXPECT_LT(darkest_inside(coarse), 160) << "lines are visible";
+  EXPECT_GT(darkest_inside(dense), 215) << "only the fill is left, blue 226";
+}
+
+TEST_F(MeshPictures, PositionsThatAreNotFiniteDropTheirTrianglesOnly) {
+  Body body = bodies::rectangle(2, 1, 3, 2);
+  const render::MeshLayout layout = coloured(body);
+  const Image whole = draw(layout, body.frame());
+  body.positions[4] = nan;  // the lower right node
+  body.held = {0, 1, 2};
+  body.arrows = {
+      {{nan, 0.5}, {10, 0}}, {{2, 0.5}, {nan, 0}}, {{2, 0.5}, {std::numeric_limits<double>::infinity(), 0}}};
+  const Image image = draw(layout, body.frame(nan));
+  const Box box = support::find(whole, [](int x, int y, const Pixel& p) {
+    return y > heading && x < width - 70 && support::distance(p, support::paper) > 60;
+  });
+  EXPECT_EQ(at(image, box.x0 + box.width() / 8, box.y1 - 20),
+            at(whole, box.x0 + box.width() / 8, box.y1 - 20));
+  EXPECT_EQ(at(image, box.x1 - 20, box.y1 - 20), support::paper);
+  body.positions.assign(body.positions.size(), nan);
+  EXPECT_NO_THROW(draw(layout, body.frame()));
+  body.positions.assign(body.positions.size(), 1e300);
+  EXPECT_NO_THROW(draw(layout, body.frame()));
+}
+
+TEST_F(MeshPictures, BoundsOfAnyKindGiveAPicture) {
+  const Body body = bodies::rectangle(1, 1, 2, 2);
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const std::array<double, 4>& bounds : {std::array<double, 4>{0, 0, 0, 0},
+                                              {nan, nan, nan, nan},
+                                              {0, 0, inf, inf},
+                                              {1, 1, 0, 0},
+                                              {-1e300, 0, 1e300, 1},
+                                              {0, 0, 1, 0},
+                                              {5e5, 5e5, 5e5, 5e5}}) {
+    render::MeshLayout layout = body.layout();
+    layout.bounds = bounds;
+    EXPECT_NO_THROW(draw(layout, body.frame()));
+  }
+}
+
+TEST_F(MeshPictures, AnEmptyMeshIsAnEmptyPicture) {
+  const Body body;
+  render::MeshLayout layout;
+  layout.title = "";
+  EXPECT_EQ(drawn(draw(layout, body.frame())).count, 0);
+}
+
+TEST_F(MeshPictures, BoundaryOfManyEdgesIsDrawnWhole) {
+  Body body = bodies::rectangle(40000, 20000, 40001, 2);  // 80002 boundary edges
+  body.held.resize(body.nodes());
+  for (std::size_t i = 0; i < body.nodes(); ++i) body.held[i] = static_cast<int>(i);
+  const Image image = draw(body.layout(), body.frame());
+  const Box box = drawn(image);
+  for (const int x : {box.x0 + 30, (box.x0 + box.x1) / 2, box.x1 - 30}) {
+    for (const bool top : {true, false}) {
+      int darkest = 255;
+      for (int k = 0; k < 30; ++k)
+        darkest = std::min(darkest, at(image, x, top ? box.y0 + k : box.y1 - k)[0]);
+      EXPECT_LT(darkest, 90) << x;
+    }
+  }
+}
+
+TEST_F(MeshPictures, ANodeBeyondTheFirstTextureRowIsFound) {
+  const Body body = bodies::rectangle(2, 1, 100, 50);  // 5000 nodes, 1024 a row
+  const Box small =
+      drawn(draw(bodies::rectangle(2, 1, 2, 2).layout(), bodies::rectangle(2, 1, 2, 2).frame()));
+  const Box large = drawn(draw(body.layout(), body.frame()));
+  EXPECT_EQ(small.x0, large.x0);
+  EXPECT_EQ(small.x1, large.x1);
+  EXPECT_EQ(small.y0, large.y0);
+  EXPECT_EQ(small.y1, large.y1);
+}
+
+TEST_F(MeshPictures, FramesDoNotLeakIntoEachOther) {
+  Body body = bodies::pulled_beam(9, 4, 2);
+  render::MeshLayout layout = coloured(body);
+  layout.arrow_scale = 10;
+  render::MeshPicture picture(*context_, layout);
+  Image first, other, again;
+  picture.draw(body.frame(0.1), first);
+  Body rest = bodies::rectangle(1, 0.25, 9, 4);
+  picture.draw(rest.frame(0.2), other);
+  picture.draw(body.frame(0.1), again);
+  EXPECT_NE(first.rgba, other.rgba);
+  EXPECT_EQ(first.rgba, again.rgba);
+  render::MeshPicture moved = std::move(picture);
+  moved.draw(body.frame(0.1), again);
+  EXPECT_EQ(first.rgba, again.rgba);
+}
+
+// Connected parts of ink larger than a letter.
+std::vector<Box> large_parts(const Image& image) {
+  std::vector<char> seen(image.rgba.size() / 4, 0);
+  std::vector<Box> parts;
+  const auto index = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
+  };
+  const auto inked = [&](int x, int y) { return support::distance(at(image, x, y), support::paper) > 20; };
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      if (seen[index(x, y)] || !inked(x, y)) continue;
+      Box box;
+      std::vector<std::pair<int, int>> stack{{x, y}};
+      seen[index(x, y)] = 1;
+      while (!stack.empty()) {
+        const auto [px, py] = stack.back();
+        stack.pop_back();
+        box.x0 = std::min(box.x0, px);
+        box.x1 = std::max(box.x1, px);
+        box.y0 = std::min(box.y0, py);
+        box.y1 = std::max(box.y1, py);
+        for (const auto& [qx, qy] : {std::pair{px + 1, py}, {px - 1, py}, {px, py + 1}, {px, py - 1}}) {
+          if (qx < 0 || qy < 0 || qx >= image.width || qy >= image.height || seen[index(qx, qy)] ||
+              !inked(qx, qy))
+            continue;
+          seen[index(qx, qy)] = 1;
+          stack.push_back({qx, qy});
+        }
+      }
+      if (box.width() > 30 && box.height() > 20) parts.push_back(box);
+    }
+  }
+  return parts;
+}
+
+TEST_F(MeshPictures, SheetShowsEveryShapeAtOneScale) {
+  Body body = bodies::rectangle(1, 0.5, 3, 2);
+  render::MeshLayout layout = body.layout();
+  layout.bounds = {0, 0, 1.5, 0.5};
+  layout.title = "Sheet";
+  std::vector<Body> shapes;
+  for (int k = 0; k < 5; ++k) {
+    shapes.push_back(body);
+    for (std::size_t i = 0; i < body.nodes(); ++i) shapes.back().positions[2 * i] *= 1 + 0.1 * k;
+  }
+  std::vector<render::MeshFrame> frames;
+  for (std::size_t k = 0; k < shapes.size(); ++k)
+    frames.push_back(shapes[k].frame(0.25 * static_cast<double>(k)));
+  render::MeshPicture picture(*context_, layout);
+  const std::vector<Box> parts = large_parts(picture.sheet(frames));
+  ASSERT_EQ(parts.size(), 5u);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    EXPECT_NEAR(parts[k].height(), parts[0].height(), 1);
+    // The outline adds about three pixels to either side.
+    EXPECT_NEAR(parts[k].width() - 3, (parts[0].width() - 3) * (1 + 0.1 * static_cast<double>(k)), 3);
+  }
+}
+
+TEST_F(MeshPictures, SheetOfNothingAndOfManyFrames) {
+  const Body body = bodies::rectangle(1, 0.5, 3, 2);
+  render::MeshPicture picture(*context_, coloured(body));
+  EXPECT_NO_THROW(picture.sheet({}));
+  const std::vector<render::MeshFrame> frames(200, body.frame());
+  EXPECT_NO_THROW(picture.sheet(frames));
+}
+
+TEST_F(MeshPictures, EveryPictureSizeWorks) {
+  const Body body = bodies::pulled_beam(5, 2, 3);
+  for (const auto& [w, h] : {std::pair{1, 1}, {8, 8}, {60, 400}, {400, 60}, {33, 27}}) {
+    const auto context = render::open_context(render::Backend::automatic, w, h);
+    render::MeshLayout layout = coloured(body);
+    layout.title = "Title";
+    layout.arrow_scale = 10;
+    render::MeshPicture picture(*context, layout);
+    Image image;
+    EXPECT_NO_THROW(picture.draw(body.frame(), image));
+    EXPECT_NO_THROW(picture.sheet(std::vector<render::MeshFrame>(3, body.frame())));
+    EXPECT_EQ(image.rgba.size(), static_cast<std::size_t>(4 * w * h));
+  }
+}
+
+}  // namespace

@@ -1,0 +1,105 @@
+#include "ticks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "sheet_grid.hpp"
+#include "typeset.hpp"
+
+namespace {
+
+using render::linear_ticks;
+using render::log_ticks;
+using Strings = std::vector<std::string>;
+
+TEST(Ticks, AreRoundNumbersInsideOfTheRange) {
+  EXPECT_EQ(linear_ticks(0, 1, 6).labels, (Strings{"0.0", "0.2", "0.4", "0.6", "0.8", "1.0"}));
+  EXPECT_EQ(linear_ticks(-3.1, 7, 7).labels, (Strings{"−2", "0", "2", "4", "6"}));
+  for (const double scale : {1e-12, 3.7e-4, 1.0, 42.0, 8.9e9}) {
+    for (int most = 2; most < 12; ++most) {
+      const auto ticks = linear_ticks(-0.31 * scale, scale, most);
+      EXPECT_GE(ticks.at.size(), 1u);
+      EXPECT_LE(ticks.at.size(), static_cast<std::size_t>(most) + 1);
+      EXPECT_EQ(std::set<std::string>(ticks.labels.begin(), ticks.labels.end()).size(), ticks.labels.size());
+      for (const double v : ticks.at) {
+        EXPECT_GE(v, -0.3101 * scale);
+        EXPECT_LE(v, 1.0001 * scale);
+      }
+    }
+  }
+}
+
+TEST(Ticks, LongNumbersGetAPowerOfTen) {
+  const auto small = linear_ticks(0, 4e-5, 5);
+  EXPECT_EQ(small.exponent, -5);
+  EXPECT_EQ(small.labels, (Strings{"0", "1", "2", "3", "4"}));
+  EXPECT_EQ(linear_ticks(0, 3e6, 4).exponent, 6);
+  EXPECT_EQ(linear_ticks(0, 9999, 4).exponent, 0);
+}
+
+TEST(Ticks, UnusableRangesGiveNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(linear_ticks(1, 1, 5).at.empty());
+  EXPECT_TRUE(linear_ticks(2, 1, 5).at.empty());
+  EXPECT_TRUE(linear_ticks(nan, 1, 5).at.empty());
+  EXPECT_TRUE(linear_ticks(0, inf, 5).at.empty());
+  EXPECT_TRUE(linear_ticks(1e20, std::nextafter(1e20, 2e20), 5).at.empty());
+  EXPECT_TRUE(log_ticks(0, 10, 5).at.empty());
+  EXPECT_TRUE(log_ticks(-1, 10, 5).at.empty());
+  EXPECT_TRUE(log_ticks(1, nan, 5).at.empty());
+}
+
+TEST(Ticks, LogarithmicOnesAreDecades) {
+  EXPECT_EQ(log_ticks(1e-3, 1, 9).labels, (Strings{"10^{-3}", "10^{-2}", "10^{-1}", "10^{0}"}));
+  EXPECT_LE(log_ticks(1e-12, 1e12, 6).at.size(), 7u);
+  EXPECT_EQ(log_ticks(1.5, 6, 6).labels, (Strings{"2×10^{0}", "5×10^{0}"}));
+}
+
+TEST(Numbers, CarryPrefixesAndTimeItsUnit) {
+  EXPECT_EQ(render::with_unit(10, "Pa"), "10 Pa");
+  EXPECT_EQ(render::with_unit(2500, "Pa"), "2.5 kPa");
+  EXPECT_EQ(render::with_unit(0, "Pa"), "0 Pa");
+  EXPECT_EQ(render::with_unit(3.2e-4, "Pa"), "320 µPa");
+  EXPECT_EQ(render::time_text(0), "t = 0.000 s");
+  EXPECT_EQ(render::time_text(0.51666), "t = 0.517 s");
+  EXPECT_EQ(render::time_text(0.0002), "t = 0.200 ms");
+}
+
+TEST(Typeset, NamesOfQuantities) {
+  const auto w = render::typeset("|w_lambda|");
+  ASSERT_EQ(w.size(), 3u);
+  EXPECT_EQ(w[0].text, "|w");
+  EXPECT_EQ(w[1].text, "λ");
+  EXPECT_EQ(w[1].level, render::Level::lower);
+  EXPECT_EQ(w[2].text, "|");
+  const auto power = render::typeset("10^-3 Pa m");
+  ASSERT_EQ(power.size(), 3u);
+  EXPECT_EQ(power[1].text, "−3");
+  EXPECT_EQ(power[1].level, render::Level::raised);
+  EXPECT_EQ(power[2].text, " Pa m");
+}
+
+TEST(Typeset, LeavesOtherTextAlone) {
+  for (const char* text : {"speed [m/s]", "a_", "^", "x _ y", "_", "a_{open", "mutual"}) {
+    std::string whole;
+    for (const auto& run : render::typeset(text)) whole += run.text;
+    EXPECT_EQ(whole, text);
+  }
+}
+
+TEST(Grid, UsesThePictureWell) {
+  const render::Rect wide{0, 0, 1600, 900};
+  const auto shape = [&](int count, double w, double h) {
+    const auto g = render::choose_grid(count, w, h, wide, 0, 0);
+    return std::pair{g.columns, g.rows};
+  };
+  EXPECT_EQ(shape(1, 1, 1), (std::pair{1, 1}));
+  EXPECT_EQ(shape(6, 1, 1), (std::pair{3, 2}));
+  EXPECT_EQ(shape(6, 10, 1), (std::pair{1, 6}));
+  EXPECT_EQ(shape(6, 1, 10), (std::pair{6, 1}));
+}
+
+}  // namespace
