@@ -23,7 +23,7 @@ Image patterned(int width, int height, bool transparent) {
   Image image{width, height, {}};
   for (int i = 0; i < width * height; ++i) {
     const int alpha = transparent ? i % 256 : 255;
-    for (const int v : {i % 251, (i / 7) % 256, (i * i) % 253, alpha}) {
+    for (const int v : {i % 251, (i / 7) % 256, (i % 1000) * (i % 1000) % 253, alpha}) {
       image.rgba.push_back(static_cast<std::uint8_t>(v));
     }
   }
