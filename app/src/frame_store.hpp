@@ -1,7 +1,7 @@
 // Records of equal length, kept between the simulation and the drawing: in memory while small, else in a file
 // without a name in the output folder, which disappears with the program.
 //
-// Numbers are float32: a picture has 16384 pixels a side at most, 24 bits of a coordinate are plenty.
+// Numbers are float32: a picture has 16384 pixels a side at most, 24 bits are plenty.
 //
 // Errors   Failure(file): no room or the system's reason
 #pragma once

@@ -115,6 +115,13 @@ OutputFolder::OutputFolder(fs::path folder, Replace replace) : folder_(std::move
   remove_known(folder_, is_top_file);
   clear_subfolder(folder_ / "frames", is_frame);
   clear_subfolder(folder_ / "vtu", is_vtu);
+  // A folder in the place of a result would only show after the simulation.
+  for (const std::string_view name : top_names)
+    if (fs::is_directory(folder_ / name))
+      throw Failure(ExitCode::file,
+                    fmt::format("{}: is a folder where a file is to be written: move it away, or name "
+                                "another folder with -o",
+                                (folder_ / name).string()));
 }
 
 OutputFolder::~OutputFolder() {
@@ -132,6 +139,11 @@ fs::path OutputFolder::file(const std::string& name) {
 
 void OutputFolder::make(const fs::path& folder) {
   std::error_code error;
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    throw Failure(ExitCode::file,
+                  fmt::format("{}: is a file where a folder is to be made: move it away, or name "
+                              "another folder with -o",
+                              folder.string()));
   std::vector<fs::path> missing;
   for (fs::path each = folder; !each.empty() && !fs::exists(each, error); each = each.parent_path()) {
     missing.push_back(each);

@@ -32,7 +32,14 @@ double scalar_at(const rheo::Simulation& simulation, rheo::ColorBy color, std::s
   return 0.0;
 }
 
-// Numbers of a record: positions and, where something is coloured, the scalar.
+std::vector<double> flat(const std::vector<rheo::Vec2>& points) {
+  std::vector<double> out;
+  out.reserve(2 * points.size());
+  for (const rheo::Vec2& point : points) out.insert(out.end(), {point.x, point.y});
+  return out;
+}
+
+// Numbers of a record: displacements and, where something is coloured, the scalar.
 std::size_t record_length(const rheo::Scene& scene) {
   return scene.mesh.points.size() * (scene.picture.color == rheo::ColorBy::none ? 2 : 3);
 }
@@ -41,33 +48,29 @@ std::size_t record_length(const rheo::Scene& scene) {
 
 Recorder::Recorder(const rheo::Scene& scene, const std::filesystem::path& folder)
     : color_(scene.picture.color),
-      nodes_(scene.mesh.points.size()),
+      rest_(flat(scene.mesh.points)),
       boundary_nodes_(rheo::nodes_of(scene.mesh.edge_groups.at("boundary"))),
       store_(folder, record_length(scene), rheo::output_count(scene.time)),
       record_(record_length(scene)),
       bounds_{infinite, infinite, -infinite, -infinite},
       range_{infinite, -infinite} {
   for (const int node : boundary_nodes_) {
-    const rheo::Vec2& point = scene.mesh.points[static_cast<std::size_t>(node)];
-    include(point.x, point.y);
+    const auto i = static_cast<std::size_t>(node);
+    include(rest_[2 * i], rest_[2 * i + 1]);
   }
 }
 
 void Recorder::record(rheo::Simulation& simulation, std::int64_t) {
-  const std::vector<rheo::Vec2>& rest = simulation.scene().mesh.points;
   const std::span<const double> u = simulation.u();
-  for (std::size_t i = 0; i < nodes_; ++i) {
-    record_[2 * i] = static_cast<float>(rest[i].x + u[2 * i]);
-    record_[2 * i + 1] = static_cast<float>(rest[i].y + u[2 * i + 1]);
-  }
+  for (std::size_t i = 0; i < u.size(); ++i) record_[i] = static_cast<float>(u[i]);
   for (const int node : boundary_nodes_) {
     const auto i = static_cast<std::size_t>(node);
-    include(rest[i].x + u[2 * i], rest[i].y + u[2 * i + 1]);
+    include(rest_[2 * i] + u[2 * i], rest_[2 * i + 1] + u[2 * i + 1]);
   }
   if (color_ != rheo::ColorBy::none) {
-    for (std::size_t i = 0; i < nodes_; ++i) {
+    for (std::size_t i = 0; i < u.size() / 2; ++i) {
       const double value = scalar_at(simulation, color_, i);
-      record_[2 * nodes_ + i] = static_cast<float>(value);
+      record_[u.size() + i] = static_cast<float>(value);
       range_ = {std::min(range_[0], value), std::max(range_[1], value)};
     }
   }
@@ -85,9 +88,9 @@ void Recorder::record(rheo::Simulation& simulation, std::int64_t) {
 void Recorder::read(std::int64_t k, std::vector<double>& positions, std::vector<double>& scalar) const {
   std::vector<float> record(record_.size());
   store_.read(k, record);
-  const auto split = record.begin() + static_cast<std::ptrdiff_t>(2 * nodes_);
-  positions.assign(record.begin(), split);
-  scalar.assign(split, record.end());
+  positions = rest_;
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += static_cast<double>(record[i]);
+  scalar.assign(record.begin() + static_cast<std::ptrdiff_t>(positions.size()), record.end());
 }
 
 std::optional<std::array<double, 2>> Recorder::scalar_range() const {

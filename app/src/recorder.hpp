@@ -1,9 +1,8 @@
 // Pass 1 of a sequence: what the pictures need of every output, and what they need of all outputs together:
 // the bounds of the motion and the range of the colour, so that frames compare.
 //
-// Shapes   positions n x 2 (deformed), scalar n (or none), float32
-// Errors   those of FrameStore
-// Not here drawing (sequence.hpp)
+// Shapes   displacements n x 2, scalar n (or none), kept in float32: a mesh far from the origin loses nothing
+// by it Errors   those of FrameStore Not here drawing (sequence.hpp)
 #pragma once
 
 #include <array>
@@ -31,7 +30,7 @@ class Recorder : public OutputSink {
 
   std::int64_t count() const { return store_.count(); }
   const RecordedLoads& loads(std::int64_t k) const { return loads_[static_cast<std::size_t>(k)]; }
-  // Fills positions (n x 2) and scalar (n; empty where nothing is coloured).
+  // Fills positions (n x 2, deformed) and scalar (n; empty where nothing is coloured).
   void read(std::int64_t k, std::vector<double>& positions, std::vector<double>& scalar) const;
 
   // x0, y0, x1, y1 over the boundary at rest and at all outputs.
@@ -43,7 +42,7 @@ class Recorder : public OutputSink {
   void include(double x, double y);
 
   rheo::ColorBy color_;
-  std::size_t nodes_;
+  std::vector<double> rest_;  // n x 2
   std::vector<int> boundary_nodes_;
   FrameStore store_;
   std::vector<RecordedLoads> loads_;

@@ -147,6 +147,9 @@ void run_scene(const Options& options) {
   timed.reset();
 
   OutputFolder folder(options.folder, options.force ? Replace::earlier_run : Replace::nothing);
+  // Whatever is in the way of the files to come shows now, not after the simulation.
+  if (options.vtu) folder.file(vtu_name(0));
+  if (sequence) folder.file(frame_name(0));
   for (const std::string& note : simulation.scene().notes) progress.line("note: " + note);
   HistoryFile history(folder.file("history.csv"), simulation.scene());
   LinearityWatch watch(progress);

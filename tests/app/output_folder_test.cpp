@@ -95,6 +95,13 @@ TEST_F(OutputFolder, APlaceThatCannotBeWrittenIsRefused) {
   EXPECT_THAT(files(), ElementsAre("beam.toml"));
 }
 
+TEST_F(OutputFolder, AFileInTheWayOfASubfolderIsNamed) {
+  write("results/vtu", "mine");
+  expect_failure(rheo({"run", "beam.toml", "-o", "results", "--force", "--vtu"}), 4,
+                 {"results/vtu", "is a file"});
+  EXPECT_THAT(files(), ElementsAre("beam.toml", "results", "results/vtu"));
+}
+
 TEST_F(OutputFolder, AFolderInTheWayOfAResultIsNamed) {
   write("results/state.csv/precious.txt", "mine");
   const Finished finished = rheo({"run", "beam.toml", "-o", "results", "--force"});
