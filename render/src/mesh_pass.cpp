@@ -31,6 +31,20 @@ void uniform_color(const Gl& gl, GLint where, Color c) {
   gl.Uniform4f(where, c.r / 255.0f, c.g / 255.0f, c.b / 255.0f, c.a / 255.0f);
 }
 
+// Twice the area by the longest side.
+double smallest_height(std::span<const double> points, std::span<const int> triangle) {
+  const auto at = [&](std::size_t k) {
+    const auto i = 2 * static_cast<std::size_t>(triangle[k]);
+    return std::array<double, 2>{points[i], points[i + 1]};
+  };
+  const auto [ax, ay] = at(0);
+  const auto [bx, by] = at(1);
+  const auto [cx, cy] = at(2);
+  const double longest =
+      std::max({std::hypot(bx - ax, by - ay), std::hypot(cx - bx, cy - by), std::hypot(ax - cx, ay - cy)});
+  return longest > 0 ? std::abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / longest : 0.0;
+}
+
 // Where a value lies in the range, 0..1. A range without extent, or without numbers, gives the low colour.
 float colour_coordinate(double value, const std::array<double, 2>& range) {
   const double t = (value - range[0]) / (range[1] - range[0]);
@@ -47,10 +61,13 @@ MeshPass::MeshPass(const Gl& gl, const MeshLayout& layout, int width, int height
       node_count_(layout.rest.size() / 2),
       range_(layout.range),
       mesh_program_(gl, "mesh", {"corner"}),
+      dense_program_(gl, "dense", {}),
       line_program_(gl, "line", {"ends", "along"}),
       mesh_array_(gl),
+      dense_array_(gl),
       line_array_(gl),
       corners_(gl),
+      indices_(gl),
       edges_(gl),
       colors_(gl),
       nodes_(gl),
@@ -69,7 +86,7 @@ MeshPass::MeshPass(const Gl& gl, const MeshLayout& layout, int width, int height
   make_texture(rest_);
   upload(rest_, layout.rest, {});
   upload_colors();
-  upload_triangles(layout.triangles);
+  upload_triangles(layout.triangles, layout.rest);
   upload_boundary(layout.boundary, layout.rest);
 }
 
@@ -88,6 +105,7 @@ void MeshPass::set_nodes(std::span<const double> positions, std::span<const doub
 void MeshPass::upload(NodeTexture& nodes, std::span<const double> positions, std::span<const double> scalar) {
   assert(positions.size() == 2 * node_count_);
   assert(scalar.empty() || scalar.size() == node_count_);
+  bool all_finite = true;
   staging_.resize(row_count(node_count_) * row * 4);
   for (std::size_t i = 0; i < node_count_; ++i) {
     const double x = positions[2 * i] - origin_[0], y = positions[2 * i + 1] - origin_[1];
@@ -97,14 +115,16 @@ void MeshPass::upload(NodeTexture& nodes, std::span<const double> positions, std
     to[1] = finite ? static_cast<float>(std::clamp(y, -reach_, reach_)) : 0.0f;
     to[2] = scalar.empty() ? 0.0f : colour_coordinate(scalar[i], range_);
     to[3] = finite ? 1.0f : 0.0f;
+    all_finite = all_finite && finite;
   }
   if (nodes.data == staging_) return;
-  nodes.data = staging_;
+  std::swap(nodes.data, staging_);
+  nodes.all_finite = all_finite;
   gl_.ActiveTexture(GL_TEXTURE0);
   gl_.BindTexture(GL_TEXTURE_2D, nodes.texture.id());
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
   gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, row, static_cast<GLsizei>(row_count(node_count_)), GL_RGBA,
-                    GL_FLOAT, staging_.data());
+                    GL_FLOAT, nodes.data.data());
 }
 
 void MeshPass::upload_colors() const {
@@ -120,10 +140,11 @@ void MeshPass::upload_colors() const {
   gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 256, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
 }
 
-void MeshPass::upload_triangles(std::span<const int> triangles) {
+void MeshPass::upload_triangles(std::span<const int> triangles, std::span<const double> rest) {
   std::vector<GLint> corners;
   corners.reserve(triangles.size() * 3);
   for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+    largest_height_ = std::max(largest_height_, smallest_height(rest, triangles.subspan(t, 3)));
     for (std::size_t k = 0; k < 3; ++k) {
       for (std::size_t s = 0; s < 3; ++s) {
         const int node = triangles[t + (k + s) % 3];
@@ -139,6 +160,10 @@ void MeshPass::upload_triangles(std::span<const int> triangles) {
                  GL_STATIC_DRAW);
   gl_.EnableVertexAttribArray(0);
   gl_.VertexAttribIPointer(0, 3, GL_INT, 0, nullptr);
+  gl_.BindVertexArray(dense_array_.id());
+  gl_.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.id());
+  gl_.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(triangles.size_bytes()), triangles.data(),
+                 GL_STATIC_DRAW);
 }
 
 void MeshPass::upload_boundary(std::span<const int> boundary, std::span<const double> rest) {
@@ -185,16 +210,28 @@ void MeshPass::place(const GlProgram& program, const Camera& camera, const NodeT
                 2.0f / static_cast<float>(height_), -1.0f, -1.0f);
 }
 
-void MeshPass::fill(const Camera& camera, float line_width) const {
-  if (corner_count_ == 0) return;
-  place(mesh_program_, camera, nodes_);
+void MeshPass::set_fill(const GlProgram& program) const {
   gl_.ActiveTexture(GL_TEXTURE1);
   gl_.BindTexture(GL_TEXTURE_2D, colors_.id());
-  gl_.Uniform1i(mesh_program_.uniform("colors"), 1);
-  gl_.Uniform1f(mesh_program_.uniform("colored"), colored_);
-  gl_.Uniform1f(mesh_program_.uniform("wire_half"), line_width / 2);
-  uniform_color(gl_, mesh_program_.uniform("plain"), theme::plain_fill);
-  uniform_color(gl_, mesh_program_.uniform("wire"), theme::wire);
+  gl_.Uniform1i(program.uniform("colors"), 1);
+  gl_.Uniform1f(program.uniform("colored"), colored_);
+  uniform_color(gl_, program.uniform("plain"), theme::plain_fill);
+}
+
+void MeshPass::fill(const Camera& camera, float line_width) const {
+  if (corner_count_ == 0) return;
+  // Lines begin to show at 2.5 pixels (mesh.vert); triangles grow a little by deformation.
+  const bool dense = largest_height_ * camera.scale < 1.8 && nodes_.all_finite;
+  const GlProgram& program = dense ? dense_program_ : mesh_program_;
+  place(program, camera, nodes_);
+  set_fill(program);
+  if (dense) {
+    gl_.BindVertexArray(dense_array_.id());
+    gl_.DrawElements(GL_TRIANGLES, corner_count_, GL_UNSIGNED_INT, nullptr);
+    return;
+  }
+  gl_.Uniform1f(program.uniform("wire_half"), line_width / 2);
+  uniform_color(gl_, program.uniform("wire"), theme::wire);
   gl_.BindVertexArray(mesh_array_.id());
   gl_.DrawArrays(GL_TRIANGLES, 0, corner_count_);
 }

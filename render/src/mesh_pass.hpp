@@ -39,12 +39,14 @@ class MeshPass {
     explicit NodeTexture(const Gl& gl) : texture(gl) {}
     GlTexture texture;
     std::vector<float> data;  // as uploaded
+    bool all_finite = true;
   };
 
   void make_texture(NodeTexture& nodes) const;
   void upload(NodeTexture& nodes, std::span<const double> positions, std::span<const double> scalar);
   void upload_colors() const;
-  void upload_triangles(std::span<const int> triangles);
+  void upload_triangles(std::span<const int> triangles, std::span<const double> rest);
+  void set_fill(const GlProgram& program) const;
   void upload_boundary(std::span<const int> boundary, std::span<const double> rest);
   void lines(const Camera& camera, const LineStyle& style, const NodeTexture& nodes) const;
   void place(const GlProgram& program, const Camera& camera, const NodeTexture& nodes) const;
@@ -57,10 +59,13 @@ class MeshPass {
   double reach_ = 1;  // coordinates are clamped to this, far outside of any picture [m]
   std::array<double, 2> range_{};
   GlProgram mesh_program_;
+  GlProgram dense_program_;
   GlProgram line_program_;
   GlVertexArray mesh_array_;
+  GlVertexArray dense_array_;
   GlVertexArray line_array_;
   GlBuffer corners_;
+  GlBuffer indices_;
   GlBuffer edges_;
   GlTexture colors_;
   NodeTexture nodes_;
@@ -68,6 +73,7 @@ class MeshPass {
   std::vector<float> staging_;
   GLsizei corner_count_ = 0;
   GLsizei edge_vertex_count_ = 0;
+  double largest_height_ = 0;  // of all triangles at rest, each one's smallest [m]
   float colored_ = 0;
 };
 

@@ -1,0 +1,50 @@
+// The frames of the picture benchmarks: a beam that is pulled, another position in every frame.
+#pragma once
+
+#include <cmath>
+#include <memory>
+
+#include "render/bodies.hpp"
+#include "render/context.hpp"
+#include "render/mesh_picture.hpp"
+
+namespace bench {
+
+class Frames {
+ public:
+  // About `triangles` of them, with colour, lines, hatches, arrows, bar and text.
+  Frames(int triangles, int width, int height)
+      : context_(render::open_context(render::Backend::automatic, width, height)) {
+    const int ny = std::max(2, static_cast<int>(std::sqrt(triangles / 8.0)) + 1), nx = 4 * (ny - 1) + 1;
+    rest_ = bodies::pulled_beam(nx, ny, 1.0);
+    full_ = bodies::pulled_beam(nx, ny, 2.2);
+    body_ = full_;
+    render::MeshLayout layout = full_.layout();
+    layout.title = "Rheological beam";
+    layout.scalar_name = "|w_lambda|";
+    layout.scalar_unit = "Pa m";
+    layout.range = {0, 0.8};
+    layout.arrow_scale = 10;
+    picture_ = std::make_unique<render::MeshPicture>(*context_, layout);
+    render::Image first;  // shaders are compiled at the first draw
+    draw(first);
+  }
+
+  void draw(render::Image& out) {
+    const double part = 0.5 + 0.5 * std::sin(0.1 * number_);
+    for (std::size_t i = 0; i < body_.positions.size(); ++i) {
+      body_.positions[i] = rest_.positions[i] + part * (full_.positions[i] - rest_.positions[i]);
+    }
+    for (std::size_t i = 0; i < body_.scalar.size(); ++i) body_.scalar[i] = part * full_.scalar[i];
+    picture_->draw(body_.frame(number_ / 60.0), out);
+    ++number_;
+  }
+
+ private:
+  std::unique_ptr<render::Context> context_;
+  bodies::Body rest_, full_, body_;
+  std::unique_ptr<render::MeshPicture> picture_;
+  int number_ = 0;
+};
+
+}  // namespace bench

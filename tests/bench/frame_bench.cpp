@@ -1,0 +1,29 @@
+// Drawing and reading back a frame, over mesh sizes and picture sizes.
+#include <benchmark/benchmark.h>
+
+#include "bench_frames.hpp"
+
+namespace {
+
+// Arguments: triangles, picture height (16:9).
+void DrawAndReadBack(benchmark::State& state) {
+  const auto height = static_cast<int>(state.range(1));
+  bench::Frames frames(static_cast<int>(state.range(0)), height * 16 / 9, height);
+  render::Image image;
+  for (auto _ : state) frames.draw(image);
+  state.SetItemsProcessed(state.iterations());
+}
+BENCHMARK(DrawAndReadBack)
+    ->ArgNames({"triangles", "height"})
+    ->Args({12, 720})
+    ->Args({1000, 720})
+    ->Args({10000, 720})
+    ->Args({100000, 720})
+    ->Args({1000000, 720})
+    ->Args({1000, 240})
+    ->Args({1000, 1080})
+    ->Args({1000, 2160})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+
+}  // namespace
