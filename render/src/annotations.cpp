@@ -69,17 +69,17 @@ void draw_hatches(Canvas& canvas, const Camera& camera, std::span<const int> bou
   }
 }
 
-// The outward normal of the boundary edge that the arrow stands on: the nearest one by its middle.
+// The outward normal, at rest, of the boundary edge that the arrow stands on: the nearest one by its middle.
 std::array<double, 2> TractionArrows::outward_normal(std::span<const double> positions,
                                                      const TractionArrow& arrow, std::size_t k) {
-  const auto ends = [&](std::size_t e) {
-    const auto a = 2 * static_cast<std::size_t>(boundary_[2 * e]),
-               b = 2 * static_cast<std::size_t>(boundary_[2 * e + 1]);
-    return std::array<double, 4>{positions[a], positions[a + 1], positions[b], positions[b + 1]};
+  const auto ends = [&](std::span<const double> points, std::size_t e) {
+    const auto a = 2 * static_cast<std::size_t>(boundary_[2 * e]);
+    const auto b = 2 * static_cast<std::size_t>(boundary_[2 * e + 1]);
+    return std::array<double, 4>{points[a], points[a + 1], points[b], points[b + 1]};
   };
   // Squared distance from the arrow's foot to the edge's middle, in units of the edge's squared length.
   const auto misfit = [&](std::size_t e) {
-    const auto [ax, ay, bx, by] = ends(e);
+    const auto [ax, ay, bx, by] = ends(positions, e);
     const double x = (ax + bx) / 2 - arrow.at[0], y = (ay + by) / 2 - arrow.at[1];
     const double size = (bx - ax) * (bx - ax) + (by - ay) * (by - ay);
     return (x * x + y * y) / std::max(size, std::numeric_limits<double>::min());
@@ -89,7 +89,7 @@ std::array<double, 2> TractionArrows::outward_normal(std::span<const double> pos
   if (edge_[k] >= count || !(misfit(edge_[k]) < 1e-12)) {
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t e = 0; e < count; ++e) {
-      const auto [ax, ay, bx, by] = ends(e);
+      const auto [ax, ay, bx, by] = ends(positions, e);
       const double x = (ax + bx) / 2 - arrow.at[0], y = (ay + by) / 2 - arrow.at[1];
       if (!(x * x + y * y < least)) continue;
       least = x * x + y * y;
@@ -97,7 +97,7 @@ std::array<double, 2> TractionArrows::outward_normal(std::span<const double> pos
     }
   }
   if (edge_[k] >= count) return {0, 0};
-  const auto [ax, ay, bx, by] = ends(edge_[k]);
+  const auto [ax, ay, bx, by] = ends(rest_, edge_[k]);
   const double size = std::hypot(bx - ax, by - ay);
   if (!(size > 0)) return {0, 0};
   return {(by - ay) / size, -(bx - ax) / size};
@@ -181,7 +181,7 @@ namespace {
 // The bar's numbers: none without a finite range, one for a single value.
 Ticks bar_ticks(const ColorBar& bar, int most) {
   const auto [low, high] = bar.range;
-  if (std::isfinite(low) && low == high) return {{low}, {fmt::format("{:.3g}", low)}, 0};
+  if (std::isfinite(low) && low == high) return {{low}, {fmt::format("{:.3g}", low)}, {}, 0};
   return linear_ticks(low, high, most);
 }
 

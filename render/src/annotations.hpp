@@ -24,7 +24,8 @@ void draw_hatches(Canvas& canvas, const Camera& camera, std::span<const int> bou
 // the edge, one that presses ends on it. Those too close together to be told apart are thinned out.
 class TractionArrows {
  public:
-  explicit TractionArrows(std::vector<int> boundary) : boundary_(std::move(boundary)) {}
+  TractionArrows(std::vector<int> boundary, std::vector<double> rest)
+      : boundary_(std::move(boundary)), rest_(std::move(rest)) {}
   // `value_area`: where the largest traction is written beside its arrow; empty: nowhere.
   void draw(Canvas& canvas, const Camera& camera, std::span<const double> positions,
             std::span<const TractionArrow> arrows, double scale, float longest, const Rect& value_area);
@@ -34,6 +35,7 @@ class TractionArrows {
                                        std::size_t k);
 
   std::vector<int> boundary_;      // k x 2
+  std::vector<double> rest_;       // n x 2
   std::vector<std::size_t> edge_;  // of each arrow, as found in the last frame
 };
 

@@ -48,7 +48,7 @@ struct MeshPicture::Impl {
         target(gl, c.width(), c.height()),
         canvas(gl, c.width(), c.height(), layout.title + layout.scalar_name + layout.scalar_unit),
         pass(gl, layout, c.width(), c.height()),
-        arrows(body.boundary) {}
+        arrows(body.boundary, {layout.rest.begin(), layout.rest.end()}) {}
 
   // The picture's parts: the title line, the colour bar, and what is left for the body.
   struct Parts {
@@ -107,7 +107,7 @@ struct MeshPicture::Impl {
     Color rest = theme::ink;
     rest.a = 130;
     pass.rest_outline(camera, {rest, std::max(1.0f, 1.2f * unit), 9 * unit});
-    pass.outline(camera, {theme::ink, std::max(1.5f, 2.2f * unit), 0});
+    pass.outline(camera, {theme::ink, std::max(1.4f, 2.0f * unit), 0});
     arrows.draw(canvas, camera, frame.positions, frame.arrows, body.arrow_scale, arrow_length(), value_area);
   }
 

@@ -137,8 +137,8 @@ class PlotPainter {
 
   void draw() {
     draw_grid();
-    for (std::size_t k = 0; k < plot_.series.size(); ++k) draw_series(k);
     draw_axes();
+    for (std::size_t k = 0; k < plot_.series.size(); ++k) draw_series(k);
     if (!legend_.empty()) draw_legend();
     const float title_y = margin() + canvas_.text_size(TextSize::title) / 2;
     const std::string title =
@@ -252,6 +252,14 @@ class PlotPainter {
       canvas_.line({a.x0 - tick, y}, {a.x0, y}, theme::soft_ink, thin_);
       canvas_.label({a.x0 - 0.6f * text_, y}, Align::right, TextSize::small, theme::ink,
                     axes_.y_ticks.labels[i]);
+    }
+    for (const double v : axes_.x_ticks.minor) {
+      const float x = std::round(axes_.pixel(v, axes_.y.low).x);
+      canvas_.line({x, a.y1}, {x, a.y1 + 0.55f * tick}, theme::soft_ink, thin_);
+    }
+    for (const double v : axes_.y_ticks.minor) {
+      const float y = std::round(axes_.pixel(axes_.x.low, v).y);
+      canvas_.line({a.x0 - 0.55f * tick, y}, {a.x0, y}, theme::soft_ink, thin_);
     }
     if (axes_.y_ticks.exponent != 0) {
       canvas_.label({a.x0, a.y0 - 0.8f * text_}, Align::left, TextSize::small, theme::ink,

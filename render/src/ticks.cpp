@@ -65,8 +65,17 @@ Ticks log_ticks(double low, double high, int most) {
     return ticks;
   }
   const int every = std::max(1, (last - first + most) / most);
+  for (int k = first - 1; k <= last && every == 1; ++k) {
+    for (int m = 2; m < 10; ++m) {
+      const double value = m * std::pow(10.0, k);
+      if (value >= low && value <= high) ticks.minor.push_back(value);
+    }
+  }
   for (int k = first; k <= last; ++k) {
-    if (k % every != 0 && every > 1) continue;
+    if (k % every != 0) {
+      ticks.minor.push_back(std::pow(10.0, k));
+      continue;
+    }
     ticks.at.push_back(std::pow(10.0, k));
     ticks.labels.push_back(fmt::format("10^{{{}}}", k));
   }

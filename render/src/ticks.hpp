@@ -11,6 +11,7 @@ namespace render {
 struct Ticks {
   std::vector<double> at;           // inside of the range, rising
   std::vector<std::string> labels;  // of each, in units of 10^exponent
+  std::vector<double> minor;        // logarithmic: without labels, in between
   int exponent = 0;                 // not 0 where the numbers would be long
 };
 

@@ -223,6 +223,18 @@ TEST_F(MeshPictures, ArrowsPullFromTheEdgeAndPressOntoIt) {
   }
 }
 
+TEST_F(MeshPictures, APullingArrowStaysOneWhenTheBodyTurnsInsideOut) {
+  Body body = bodies::rectangle(2, 1, 5, 3);
+  render::MeshLayout layout = body.layout();
+  layout.arrow_scale = 10;
+  const Image without = draw(layout, body.frame());
+  body.arrows = three_arrows(10);
+  const Box upright = support::find_difference(without, draw(layout, body.frame()));
+  for (std::size_t i = 1; i < body.positions.size(); i += 2) body.positions[i] = 1 - body.positions[i];  // mirrored
+  const Box mirrored = support::find_difference(without, draw(layout, body.frame()));
+  EXPECT_EQ(upright.x1, mirrored.x1);
+}
+
 TEST_F(MeshPictures, ArrowLengthIsProportionalToTheTraction) {
   Body body = bodies::rectangle(2, 1, 2, 2);
   render::MeshLayout layout = body.layout();
