@@ -439,6 +439,18 @@ TEST(BadScene, TextsThatAreNoScene) {
   EXPECT_THAT(message("[mesh]\nfile = \"a\"\nfile = \"b\"\n"), HasSubstr("bad.toml:3: not valid TOML"));
 }
 
+TEST(BadScene, CharactersBeyondAsciiBelongInQuotesAndComments) {
+  for (const char* letter : {"\xC3\xA9", "\xEF\xAD\x90", "\xE2\x80\xA8", "\xFF"}) {
+    EXPECT_THAT(refusal_with(15, std::string("d") + letter + "nsity = 1"),
+                AllOf(StartsWith("bad.toml:15: not valid TOML: "), HasSubstr("beyond ASCII")));
+  }
+  auto lines = all_keys();
+  lines[0] = "title = \"\"\"\n\\\"\xC3\xA9\"\"\"\"  # \xC3\xA9";
+  EXPECT_EQ(parse_lines(lines).title, "\"\xC3\xA9\"");
+  lines[0] = "title = '\\\xC3\xA9'";
+  EXPECT_EQ(parse_lines(lines).title, "\\\xC3\xA9");
+}
+
 TEST(BadScene, DeepNestingIsRefused) {
   const auto message = [](const std::string& text) {
     return error_of([&] { parse_scene(text, "bad.toml", {}); });

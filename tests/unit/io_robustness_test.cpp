@@ -5,6 +5,7 @@
 #include <random>
 
 #include "io/table_file.hpp"
+#include "io/toml_tree.hpp"
 #include "io_error_of.hpp"
 #include "rheo/io/mesh_file.hpp"
 #include "rheo/io/scene_file.hpp"
@@ -107,6 +108,23 @@ INSTANTIATE_TEST_SUITE_P(Shipped, DamagedScene,
                            const std::string name = suite.param;
                            return name.substr(0, name.find('.'));
                          });
+
+TEST(DamagedToml, IsReadOrRefused) {
+  const auto read = [](const std::string& text) { parse_toml(text, "t.toml"); };
+  const std::string text = R"(title = """
+a "quoted" \u00e9\t Ã©"""  # Ã©
+a = '''b'''
+[x.y]
+date = 1979-05-27T07:32:00Z
+time = 07:32:00
+"q Ã©".'z' = {a = [1, {b = 2}], c.d = 0x1F, e = [-inf, +nan, 1_000.5e-3]}
+[[list.of.tables]]
+s = "\u00e9\U0001F600"
+)";
+  ASSERT_TRUE(reads(read, text));
+  cut_everywhere(read, text);
+  damage(read, text, 4000);
+}
 
 TEST(DamagedTable, IsReadOrRefused) {
   const auto read = [](const std::string& text) { parse_table(text, "t.csv", 3, "t, x, y"); };

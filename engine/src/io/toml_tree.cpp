@@ -77,21 +77,55 @@ TomlValue convert(const toml::node& node) {
   return value;
 }
 
-// Tables nest as deeply as a dotted key has parts, and are taken apart recursively: a key of a million parts
-// must not get that far. Dots that nothing but names and blanks separate are counted; a number array has
-// commas between.
-void refuse_endless_keys(std::string_view text, const std::string& name) {
+// Where the text that begins with the quotes at `begin` ends: behind its last quote, or where it breaks off.
+std::size_t end_of_text(std::string_view text, std::size_t begin) {
+  const char quote = text[begin];
+  const std::string three(3, quote);
+  const bool long_form = text.substr(begin, 3) == three;
+  for (std::size_t i = begin + (long_form ? 3 : 1); i < text.size(); ++i) {
+    if (text[i] == '\\' && quote == '"') {
+      ++i;
+    } else if (!long_form && (text[i] == quote || text[i] == '\n')) {
+      return text[i] == quote ? i + 1 : i;
+    } else if (long_form && text.substr(i, 3) == three) {
+      i += 3;
+      for (int more = 0; more < 2 && i < text.size() && text[i] == quote; ++more)
+        ++i;  // quotes before the last three
+      return i;
+    }
+  }
+  return text.size();
+}
+
+// Refuses what the library does not stand, outside of texts and comments:
+// - characters beyond ASCII, which no valid TOML has there (some lead to undefined behaviour in version 3.3);
+// - keys of very many parts: tables nest as deeply, and are taken apart recursively.
+void check_characters(std::string_view text, const std::string& name) {
   constexpr int most_parts = 1000;
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   int dots = 0;
   int line = 1;
-  for (const char c : text) {
+  const auto refuse = [&](const std::string& what) {
+    throw Error(Error::Kind::input, fmt::format("{}:{}: not valid TOML: {}", name, line, what));
+  };
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '#') {
+      i = std::min(text.find('\n', i), text.size()) - 1;
+    } else if (c == '"' || c == '\'') {
+      const std::size_t end = end_of_text(text, i);
+      const std::string_view skipped = text.substr(i, end - i);
+      line += static_cast<int>(std::count(skipped.begin(), skipped.end(), '\n'));
+      i = end - 1;
+    } else if (static_cast<unsigned char>(c) >= 0x80) {
+      refuse(fmt::format("{}: characters beyond ASCII are allowed in quotes and comments only",
+                         in_quotes(text.substr(i, 4), 12)));
+    } else if (c == '.' && ++dots > most_parts) {
+      refuse(fmt::format("a key of more than {} parts", most_parts));
+    }
     if (c == '\n') ++line;
     if (c == '\n' || c == ',' || c == '=' || c == '[' || c == '{') dots = 0;
-    if (c == '.' && ++dots > most_parts) {
-      throw Error(
-          Error::Kind::input,
-          fmt::format("{}:{}: not valid TOML: more than {} dots in one key or text", name, line, most_parts));
-    }
   }
 }
 
@@ -110,7 +144,7 @@ TomlValue parse_toml(std::string_view text, const std::string& name) {
     throw Error(Error::Kind::input,
                 fmt::format("{}:{}: a zero byte: this is no text file; a TOML text is needed", name, line));
   }
-  refuse_endless_keys(text, name);
+  check_characters(text, name);
   try {
     const toml::table document = toml::parse(text, std::string_view(name));
     return convert_table(document);
