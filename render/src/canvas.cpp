@@ -24,6 +24,15 @@ constexpr float sub_scale = 0.74f;    // lowered and raised text
 constexpr float cap_middle = 0.484f;  // middle of DejaVu Sans' capitals, from the top of the line
 constexpr std::size_t chunk = 4000;   // points in one primitive: well below what 16-bit indices reach
 
+// Line breaks and other control characters become spaces.
+std::string one_line(std::string_view s) {
+  std::string line(s);
+  for (char& c : line) {
+    if (static_cast<unsigned char>(c) < 0x20) c = ' ';
+  }
+  return line;
+}
+
 ImVec2 vec(Point p) {
   return {p.x, p.y};
 }
@@ -87,11 +96,13 @@ struct Canvas::Impl {
     list.PushTextureID(atlas.TexID);
   }
 
-  static float measure(const ImFont& font, std::string_view s) {
+  static float measure(const ImFont& font, std::string_view text) {
+    const std::string s = one_line(text);
     return font.CalcTextSizeA(font.FontSize, FLT_MAX, 0, s.data(), s.data() + s.size()).x;
   }
 
-  void draw(ImFont& font, float x, float middle, Color color, std::string_view s) {
+  void draw(ImFont& font, float x, float middle, Color color, std::string_view text) {
+    const std::string s = one_line(text);
     const ImVec2 corner(std::round(x), std::round(middle - cap_middle * font.FontSize));
     list.AddText(&font, font.FontSize, corner, packed(color), s.data(), s.data() + s.size());
   }

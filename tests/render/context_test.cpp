@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -106,6 +107,50 @@ TEST(Contexts, SeveralLiveInOneProcess) {
   EXPECT_EQ(image_a.rgba, again.rgba);
 }
 
+TEST(Contexts, BackendsTakeTurnsInOneThread) {
+  RHEO_OPEN_OR_SKIP(osmesa, Backend::osmesa, 320, 240);
+  RHEO_OPEN_OR_SKIP(egl, Backend::egl, 320, 240);
+  const bodies::Body disk = bodies::disk(1, 4), beam = bodies::pulled_beam(9, 4, 2);
+  render::Image disk_first, beam_first, disk_again, beam_again;
+  render::MeshPicture a(*osmesa, disk.layout());
+  a.draw(disk.frame(), disk_first);
+  render::MeshPicture b(*egl, beam.layout());
+  b.draw(beam.frame(), beam_first);
+  for (int i = 0; i < 3; ++i) {
+    a.draw(disk.frame(), disk_again);
+    b.draw(beam.frame(), beam_again);
+    EXPECT_EQ(disk_first.rgba, disk_again.rgba);
+    EXPECT_EQ(beam_first.rgba, beam_again.rgba);
+  }
+}
+
+// OSMesa and EGL share Mesa's dispatch without knowing of each other: a context that only believes to be
+// current would draw into the other one, with the other one's objects.
+TEST(Contexts, EachIsTrulyCurrentAfterMakeCurrent) {
+  RHEO_OPEN_OR_SKIP(osmesa, Backend::osmesa, 32, 32);
+  RHEO_OPEN_OR_SKIP(egl, Backend::egl, 32, 32);
+  RHEO_OPEN_OR_SKIP(second, Backend::osmesa, 32, 32);
+  const std::array<render::Context*, 3> contexts{osmesa.get(), egl.get(), second.get()};
+  const auto bound = [](const render::Context& context) {
+    GLint id = 0;
+    context.gl().GetIntegerv(GL_TEXTURE_BINDING_2D, &id);
+    return id;
+  };
+  std::array<GLint, 3> own{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    contexts[i]->make_current();
+    EXPECT_EQ(bound(*contexts[i]), 0) << "fresh";
+    std::array<GLuint, 3> names{};
+    contexts[i]->gl().GenTextures(static_cast<GLsizei>(i + 1), names.data());
+    own[i] = static_cast<GLint>(names[i]);
+    contexts[i]->gl().BindTexture(GL_TEXTURE_2D, names[i]);
+  }
+  for (const std::size_t i : {0u, 1u, 2u, 1u, 0u, 2u, 0u}) {
+    contexts[i]->make_current();
+    EXPECT_EQ(bound(*contexts[i]), own[i]) << "context " << i;
+  }
+}
+
 TEST(Contexts, AThreadMayHaveItsOwn) {
   RHEO_OPEN_OR_SKIP(here, Backend::automatic, 160, 120);
   const render::Image expected = picture(*here);
@@ -150,6 +195,25 @@ TEST(Canvas, TitlesAreShortenedToWholeCharacters) {
   EXPECT_THAT(s, ::testing::EndsWith("…"));
   EXPECT_EQ((s.size() - 3) % 2, 0u) << "half a character is left";
   EXPECT_LE(canvas.text_width(render::TextSize::normal, s), 60);
+}
+
+TEST(Canvas, AnyTextStaysInOneLine) {
+  RHEO_OPEN_OR_SKIP(context, Backend::automatic, 300, 100);
+  context->make_current();
+  const render::Target target(context->gl(), 300, 100);
+  const std::string odd = "a\nb\tc\r\x01 \xFF\xC3 d 漢字 😀 e";
+  render::Canvas canvas(context->gl(), 300, 100, odd);
+  target.bind();
+  context->gl().ClearColor(1, 1, 1, 1);
+  context->gl().Clear(GL_COLOR_BUFFER_BIT);
+  canvas.text({10, 50}, render::Align::left, render::TextSize::normal, {0, 0, 0}, odd);
+  canvas.label({10, 50}, render::Align::left, render::TextSize::normal, {0, 0, 0}, odd);
+  canvas.flush();
+  render::Image image;
+  target.read(image);
+  const support::Box ink = support::find(image, [](int, int, const support::Pixel& p) { return p[0] < 128; });
+  EXPECT_GT(ink.count, 20);
+  EXPECT_LT(ink.height(), 20);
 }
 
 TEST(Shaders, ADirectoryOfTheDeveloperReplacesThem) {
