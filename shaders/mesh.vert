@@ -6,12 +6,13 @@ precision highp int;
 uniform highp sampler2D nodes;  // x, y relative to the mesh origin; colour coordinate 0..1; 1 where finite
 uniform vec4 view;              // pixels = nodes * view.xy + view.zw
 uniform vec4 to_clip;  // clip = pixels * to_clip.xy + to_clip.zw
+uniform float wire_half;        // half the width of the mesh lines, pixels
 
 in ivec3 corner;  // own node, next, previous
 
 out vec3 distances;  // to the three edges, in pixels
 out float value;
-flat out float wire_fade;  // 0 for triangles of only a few pixels, whose lines would be all that is seen
+flat out float wire_fade;  // 0 for triangles of only a few lines' width, of which nothing else would be seen
 
 vec4 node(int i) { return texelFetch(nodes, ivec2(i & 1023, i >> 10), 0); }
 
@@ -32,7 +33,7 @@ void main() {
   int k = gl_VertexID % 3;
   distances = vec3(k == 0 ? height : 0.0, k == 1 ? height : 0.0, k == 2 ? height : 0.0);
   value = own.z;
-  wire_fade = smoothstep(2.5, 10.0, smallest);
+  wire_fade = smoothstep(2.5, 10.0, smallest / max(2.0 * wire_half, 1.0));
   // A triangle with a node that is not finite is not drawn: its corners meet in one point outside of the picture.
   bool finite = own.w * next.w * previous.w > 0.5;
   gl_Position = finite ? vec4(a * to_clip.xy + to_clip.zw, 0.0, 1.0) : vec4(-3.0, -3.0, 0.0, 1.0);

@@ -220,8 +220,9 @@ void MeshPass::set_fill(const GlProgram& program) const {
 
 void MeshPass::fill(const Camera& camera, float line_width) const {
   if (corner_count_ == 0) return;
-  // Lines begin to show at 2.5 pixels (mesh.vert); triangles grow a little by deformation.
-  const bool dense = largest_height_ * camera.scale < 1.8 && nodes_.all_finite;
+  // Lines begin to show at 2.5 times their width (mesh.vert); triangles grow a little by deformation.
+  const double limit = 1.8 * std::max(line_width, 1.0f);
+  const bool dense = largest_height_ * camera.scale < limit && nodes_.all_finite;
   const GlProgram& program = dense ? dense_program_ : mesh_program_;
   place(program, camera, nodes_);
   set_fill(program);
