@@ -128,6 +128,7 @@ CLI::App* add_command(CLI::App& program, Texts& texts, const std::string& name,
   CLI::App* command = program.add_subcommand(name, description);
   command->add_option("SCENE", texts.scene, "scene file (TOML)")->required()->type_name("");
   add_time_options(*command, texts);
+  command->group("Commands");
   command->footer(fmt::format("{}\n{}", examples, exit_codes));
   return command;
 }
@@ -231,6 +232,7 @@ std::optional<Options> read_command_line(int argc, char** argv) {
   CLI::App program(about, "rheo");
   program.set_version_flag("--version", fmt::format("rheo {}", RHEO_VERSION));
   program.get_formatter()->column_width(34);
+  program.get_formatter()->label("SUBCOMMAND", "COMMAND");
   program.footer(
       fmt::format("rheo COMMAND --help lists the options of a command.\n\n{}\n{}", examples, exit_codes));
   Texts texts;

@@ -177,6 +177,17 @@ TEST_F(Results, StrainBeyondALinearModelIsWarnedOfOnceWithTimeAndPlace) {
   EXPECT_THAT(json.at("warnings").dump(), HasSubstr("strain"));
 }
 
+TEST_F(Results, TheReadersNotesAreToldAndKept) {
+  write("beam.toml", small_beam_with("shape = \"rectangle\"\nsize = [1.0, 0.25]\nnodes = [5, 2]",
+                                     "points = [[0, 0], [1, 0], [0, 1]]\ntriangles = [[0, 2, 1]]\n[edges]\n"
+                                     "left = [[0, 2]]\nright = [[1, 2]]"));
+  const Finished finished = rheo({"run", "beam.toml"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_THAT(finished.out, AllOf(HasSubstr("note: "), HasSubstr("clockwise")));
+  const auto json = nlohmann::json::parse(read_text(folder() / "out/beam/run.json"));
+  EXPECT_THAT(json.at("notes").dump(), HasSubstr("clockwise"));
+}
+
 TEST_F(Results, NoPartStaysBehind) {
   run("r", {"--vtu"});
   for (const std::string& name : files()) EXPECT_THAT(name, Not(HasSubstr(".part")));
