@@ -112,12 +112,12 @@ INSTANTIATE_TEST_SUITE_P(Shipped, DamagedScene,
 TEST(DamagedToml, IsReadOrRefused) {
   const auto read = [](const std::string& text) { parse_toml(text, "t.toml"); };
   const std::string text = R"(title = """
-a "quoted" \u00e9\t Ã©"""  # Ã©
+a "quoted" \u00e9\t é"""  # é
 a = '''b'''
 [x.y]
 date = 1979-05-27T07:32:00Z
 time = 07:32:00
-"q Ã©".'z' = {a = [1, {b = 2}], c.d = 0x1F, e = [-inf, +nan, 1_000.5e-3]}
+"q é".'z' = {a = [1, {b = 2}], c.d = 0x1F, e = [-inf, +nan, 1_000.5e-3]}
 [[list.of.tables]]
 s = "\u00e9\U0001F600"
 )";
