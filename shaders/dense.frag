@@ -10,6 +10,7 @@ out vec4 color;
 
 void main() {
   vec3 fill = plain.rgb;
-  if (colored > 0.5) fill = texture(colors, vec2(clamp(value, 0.0, 1.0) * (255.0 / 256.0) + 0.5 / 256.0, 0.5)).rgb;
+  float u = clamp(value, 0.0, 1.0) * (255.0 / 256.0) + 0.5 / 256.0;
+  if (colored > 0.5) fill = texture(colors, vec2(u, 0.5)).rgb;
   color = vec4(fill, 1.0);
 }

@@ -1,4 +1,4 @@
-// Triangles too small for lines of their own: the vertex number is the node, shared by all triangles about it.
+// Triangles too small for lines of their own: the vertex number is the node, shared by all its triangles.
 precision highp float;
 precision highp int;
 

@@ -15,8 +15,8 @@ out vec4 color;
 
 void main() {
   vec2 edge = second - first;
-  // Every point of the line belongs to one edge only, or soft rims would be drawn twice at each joint: behind its start
-  // to the edge before, beyond its end to the edge that follows, but for the wedge between the two.
+  // Every point of the line belongs to one edge only, or soft rims would be drawn twice at each joint: behind
+  // its start to the edge before, beyond its end to the next one, but for the wedge between the two.
   if (dot(position - first, edge) < 0.0) discard;
   vec2 beyond = position - second;
   if (follows > 0.5 && dot(beyond, edge) >= 0.0 && dot(beyond, third - second) >= 0.0) discard;

@@ -1,4 +1,5 @@
-// Edges as strips with round joints: a rectangle of six vertices about each, the fragment shader decides by distance.
+// Edges as strips with round joints: a rectangle of six vertices about each; the fragment shader decides by
+// distance.
 precision highp float;
 precision highp int;
 

@@ -14,7 +14,8 @@ out vec4 color;
 
 void main() {
   vec3 fill = plain.rgb;
-  if (colored > 0.5) fill = texture(colors, vec2(clamp(value, 0.0, 1.0) * (255.0 / 256.0) + 0.5 / 256.0, 0.5)).rgb;
+  float u = clamp(value, 0.0, 1.0) * (255.0 / 256.0) + 0.5 / 256.0;
+  if (colored > 0.5) fill = texture(colors, vec2(u, 0.5)).rgb;
   float d = min(distances.x, min(distances.y, distances.z));
   float line = clamp(wire_half + 0.5 - d, 0.0, 1.0);
   color = vec4(mix(fill, wire.rgb, line * wire.a * wire_fade), 1.0);

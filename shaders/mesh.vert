@@ -1,5 +1,5 @@
-// Filled triangles with their edges. Node data come from a texture, x, y, scalar a node; a vertex carries its own
-// node and the triangle's two others, so that its height above the opposite edge is known here, in pixels.
+// Filled triangles with their edges. Node data come from a texture, x, y, scalar a node; a vertex carries its
+// own node and the two others, so that its height above the opposite edge is known here, in pixels.
 precision highp float;
 precision highp int;
 
@@ -34,7 +34,7 @@ void main() {
   distances = vec3(k == 0 ? height : 0.0, k == 1 ? height : 0.0, k == 2 ? height : 0.0);
   value = own.z;
   wire_fade = smoothstep(2.5, 10.0, smallest / max(2.0 * wire_half, 1.0));
-  // A triangle with a node that is not finite is not drawn: its corners meet in one point outside of the picture.
+  // A triangle with a node that is not finite is not drawn: its corners meet outside of the picture.
   bool finite = own.w * next.w * previous.w > 0.5;
   gl_Position = finite ? vec4(a * to_clip.xy + to_clip.zw, 0.0, 1.0) : vec4(-3.0, -3.0, 0.0, 1.0);
 }

@@ -100,8 +100,8 @@ class EglContext final : public Context {
   std::string description() const override { return describe_driver(gl_, "EGL"); }
 
   void make_current() override {
-    // Released first: where OSMesa, or a window's library, took Mesa's dispatch over meanwhile, EGL does not know of it
-    // and would take its own context for the current one.
+    // Released first: where OSMesa, or a window's library, took Mesa's dispatch over meanwhile, EGL does not
+    // know of it and would take its own context for the current one.
     egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (!egl_.bind_api(EGL_OPENGL_API) ||
         !egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {

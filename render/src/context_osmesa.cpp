@@ -73,7 +73,8 @@ class OsmesaContext final : public Context {
   std::string description() const override { return describe_driver(gl_, "OSMesa"); }
 
   void make_current() override {
-    // Always, and released first: OSMesa shares Mesa's dispatch with EGL and does not see when that took it over.
+    // Always, and released first: OSMesa shares Mesa's dispatch with EGL and does not see when that took it
+    // over.
     make_current_(nullptr, nullptr, 0, 0, 0);
     if (!make_current_(context_, buffer_.data(), GL_UNSIGNED_BYTE, side, side)) {
       throw std::runtime_error("OSMesa cannot make its context current");

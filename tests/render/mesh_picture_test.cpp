@@ -230,7 +230,8 @@ TEST_F(MeshPictures, APullingArrowStaysOneWhenTheBodyTurnsInsideOut) {
   const Image without = draw(layout, body.frame());
   body.arrows = three_arrows(10);
   const Box upright = support::find_difference(without, draw(layout, body.frame()));
-  for (std::size_t i = 1; i < body.positions.size(); i += 2) body.positions[i] = 1 - body.positions[i];  // mirrored
+  for (std::size_t i = 1; i < body.positions.size(); i += 2)
+    body.positions[i] = 1 - body.positions[i];  // mirrored
   const Box mirrored = support::find_difference(without, draw(layout, body.frame()));
   EXPECT_EQ(upright.x1, mirrored.x1);
 }

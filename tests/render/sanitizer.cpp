@@ -2,6 +2,7 @@
 extern "C" const char* __lsan_default_suppressions();
 
 extern "C" const char* __lsan_default_suppressions() {
-  return "leak:libOSMesa.so\nleak:libEGL.so\nleak:libEGL_mesa.so\nleak:libgallium\nleak:swrast_dri.so\nleak:libLLVM\n"
+  return "leak:libOSMesa.so\nleak:libEGL.so\nleak:libEGL_mesa.so\nleak:libgallium\nleak:swrast_dri.so\nleak:"
+         "libLLVM\n"
          "leak:libGLdispatch.so\n";
 }

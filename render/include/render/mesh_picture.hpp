@@ -1,7 +1,7 @@
 // Pictures of a deforming mesh: single frames and the sheet of successive shapes.
 //
-// Arrays in, pixels out: a struct of read-only spans, valid during a draw. The renderer knows nothing of where they
-// come from.
+// Arrays in, pixels out: a struct of read-only spans, valid during a draw. The renderer knows nothing of
+// where they come from.
 //
 // Units    lengths [m], times [s], tractions [Pa]; the scalar's unit is a text
 // Errors   std::runtime_error with one line (no context, a picture beyond the driver's limit)
@@ -39,7 +39,7 @@ struct TractionArrow {
 struct MeshFrame {
   std::span<const double> positions;  // n x 2, deformed
   std::span<const double> scalar;     // n, or empty
-  std::span<const int> held;          // nodes that a constraint holds: hatched along boundary edges held at both ends
+  std::span<const int> held;  // nodes that a constraint holds: hatched along boundary edges held at both ends
   std::span<const TractionArrow> arrows;  // one per loaded edge
   double time = 0.0;
 };
@@ -51,8 +51,8 @@ class MeshPicture {
   ~MeshPicture();
   MeshPicture(MeshPicture&&) noexcept;
 
-  // One frame with everything: mesh, outline, rest shape, hatches, arrows, colour bar, title, time. `out` is resized
-  // where needed, its memory used again.
+  // One frame with everything: mesh, outline, rest shape, hatches, arrows, colour bar, title, time. `out` is
+  // resized where needed, its memory used again.
   void draw(const MeshFrame& frame, Image& out);
 
   // Successive shapes in a grid, each with its time, all at one scale, one colour bar (the paper's Figure 3).

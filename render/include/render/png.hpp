@@ -20,8 +20,9 @@ class FileError : public std::runtime_error {
 std::vector<unsigned char> encode_png(const Image& image);
 void write_png(const std::filesystem::path& file, const Image& image);
 
-// A bounded queue of frames with `threads` encoders. submit() waits while the queue is full and throws the first error
-// of an encoder; finish() waits for all and does likewise. The destructor waits too, and throws nothing.
+// A bounded queue of frames with `threads` encoders. submit() waits while the queue is full and throws the
+// first error of an encoder; finish() waits for all and does likewise. The destructor waits too, and throws
+// nothing.
 class PngSequence {
  public:
   explicit PngSequence(int threads);
