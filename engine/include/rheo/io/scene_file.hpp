@@ -1,11 +1,10 @@
-// Scene files (TOML) and the command line's overrides of them.
+// Scene files (TOML).
 //
 // Errors   Error::Kind::input: one line "file:line: [table] key = value: what is allowed" (with the nearest known key for
 //          a misspelt one); Error::Kind::file where the file cannot be read
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "rheo/scene.hpp"
