@@ -14,7 +14,7 @@ class Euler final : public Integrator {
       for (std::size_t i = 0; i < y.size(); ++i) y[i] += h * rate[i];
       return;
     }
-    op.fma(h, y, y, {t, {1.0, 0.0, 0.0, 0.0}}, next_);
+    op.fma(h, y, y, {t, {1.0, 0.0, 0.0, 0.0}}, next_, Result::step);
     std::copy(next_.begin(), next_.end(), y.begin());
   }
   std::string_view name() const override { return "euler"; }
@@ -47,13 +47,13 @@ class Rk4 final : public Integrator {
   void step(LinearOperator& op, double t, double h, std::span<double> y, std::span<const double> rate) override {
     assert(y.size() == a_.size());
     if (rate.empty()) {
-      op.fma(h / 4, y, y, {t, {1.0, 0.0, 0.0, 0.0}}, a_);
+      op.fma(h / 4, y, y, {t, {1.0, 0.0, 0.0, 0.0}}, a_, Result::intermediate);
     } else {
       for (std::size_t i = 0; i < y.size(); ++i) a_[i] = y[i] + h / 4 * rate[i];
     }
-    op.fma(h / 3, a_, y, {t, {1.0, h / 4, 0.0, 0.0}}, b_);
-    op.fma(h / 2, b_, y, {t, {1.0, h / 3, h * h / 12, 0.0}}, a_);
-    op.fma(h, a_, y, {t, {1.0, h / 2, h * h / 6, h * h * h / 24}}, y);
+    op.fma(h / 3, a_, y, {t, {1.0, h / 4, 0.0, 0.0}}, b_, Result::intermediate);
+    op.fma(h / 2, b_, y, {t, {1.0, h / 3, h * h / 12, 0.0}}, a_, Result::intermediate);
+    op.fma(h, a_, y, {t, {1.0, h / 2, h * h / 6, h * h * h / 24}}, y, Result::step);
   }
   std::string_view name() const override { return "rk4"; }
   int order() const override { return 4; }

@@ -76,6 +76,10 @@ std::shared_ptr<const ConstraintSolver> Schedule::solver(const Signature& active
   return known != solvers_.end() ? known->second : make_solver(active);
 }
 
+bool Schedule::has_columns() const {
+  return !scene_.constraints.empty() || (scene_.time.constraints == ConstraintMethod::baumgarte && !holders_.empty());
+}
+
 void Schedule::make_spectrum(const std::vector<Signature>& signatures) {
   const Material& material = scene_.material;
   Spectrum& s = spectrum_;
@@ -98,9 +102,7 @@ void Schedule::make_spectrum(const std::vector<Signature>& signatures) {
     include(ConstraintSolver(model_, {}, {}));
   }
   s.omega_max = std::min(omega, s.element_bound);
-  const bool columns =
-      !scene_.constraints.empty() || (scene_.time.constraints == ConstraintMethod::baumgarte && !holders_.empty());
-  if (columns) s.baumgarte = scene_.time.baumgarte;
+  if (has_columns()) s.baumgarte = scene_.time.baumgarte;
 }
 
 Interval Schedule::interval(std::size_t i) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "constraints.hpp"
-#include "physics.hpp"
+#include "body.hpp"
 #include "rheo/stability.hpp"
 
 namespace rheo {
@@ -25,6 +25,9 @@ class Schedule {
 
   Interval interval(std::size_t i);
   std::vector<Simulation::ActiveTraction> active_tractions(std::size_t i, double t) const;
+
+  // Whether some constraint is not eliminated but solved for (equation 4).
+  bool has_columns() const;
 
   // Over all sets of constraints that the scene goes through.
   Spectrum spectrum() const { return spectrum_; }

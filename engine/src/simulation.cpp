@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 
+#include "assembled_body.hpp"
 #include "energy_book.hpp"
+#include "kernels/edge_body.hpp"
 #include "model.hpp"
-#include "physics.hpp"
 #include "rheo/error.hpp"
 #include "schedule.hpp"
 #include "timeline.hpp"
@@ -18,6 +20,8 @@ namespace {
 
 constexpr double auto_fraction = 0.25;      // of the stable limit
 constexpr double most_steps = 1e15;         // counted exactly by a double, and beyond any patience
+constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
+constexpr std::int64_t unasked_stride = 16;  // steps between looks at the energy where nobody asks for it
 constexpr double violation_allowed = 0.01;  // of a constraint's coefficients times the largest |u|
 
 const Scene& validated(const Scene& scene) {
@@ -38,11 +42,10 @@ struct Simulation::Impl {
         model(validated(scene).mesh, scene.material),
         schedule(scene, model),
         spectrum(schedule.spectrum()),
-        physics(model, scene.time.baumgarte),
-        book(model, physics),
-        integrator(make_integrator(scene.time.integrator, model.layout.size())),
+        body(make_body(options)),
+        integrator(make_integrator(scene.time.integrator, body->size())),
+        stride(options.energies ? 1 : unasked_stride),
         y(model.layout.size(), 0.0),
-        y_rate(model.layout.size(), 0.0),
         zeros(model.layout.part, 0.0) {
     choose_step(options);
     const auto part = static_cast<Eigen::Index>(model.layout.part);
@@ -84,9 +87,27 @@ struct Simulation::Impl {
     }
   }
 
-  Forcing now() const { return {time, {1.0, 0.0, 0.0, 0.0}}; }
-  VectorMap u() { return {y.data() + model.layout.u(), static_cast<Eigen::Index>(model.layout.part)}; }
-  VectorMap v() { return {y.data() + model.layout.v(), static_cast<Eigen::Index>(model.layout.part)}; }
+  // The fastest kernel that the scene's mass and constraints allow, unless one is asked for.
+  std::unique_ptr<Body> make_body(const SimulationOptions& options) const {
+    const bool edges = scene.material.mass == Mass::lumped && !schedule.has_columns();
+    if (options.kernel == Kernel::edge && !edges) {
+      throw Error(Error::Kind::input,
+                  "kernel edge needs mass = \"lumped\" and constraints = \"auto\" without [[constraint]]: use auto or csr");
+    }
+    if (edges && options.kernel != Kernel::csr) {
+      return std::make_unique<EdgeBody>(scene.mesh, model, best_simd_level());
+    }
+    return std::make_unique<AssembledBody>(model, scene.time.baumgarte);
+  }
+
+  VectorMap u() {
+    fetch();
+    return {y.data() + model.layout.u(), static_cast<Eigen::Index>(model.layout.part)};
+  }
+  VectorMap v() {
+    fetch();
+    return {y.data() + model.layout.v(), static_cast<Eigen::Index>(model.layout.part)};
+  }
 
   // Passes an event: new loads and constraints, and the velocity's jump where a constraint begins or its b' jumps.
   void enter(std::size_t i) {
@@ -112,48 +133,40 @@ struct Simulation::Impl {
     const bool other_constraints = next.solver != interval.solver;
     interval = std::move(next);
     index = i;
-    physics.enter(interval, base);
-    if (begins) project_velocity();
-    impose_prescribed();
+    body->enter(interval, base);
+    if (begins && project_velocity()) body->load(y);
+    body->impose_prescribed(time);
+    changed();
     if (begins || other_constraints) note_violations();
-    evaluated = false;
-    reaction_known = false;
   }
 
   // v+ = v + M^-1 A L with A^T v+ = b': an impulse, whose energy is work.
-  void project_velocity() {
+  bool project_velocity() {
     const ConstraintSolver& solver = *interval.solver;
     const std::size_t columns = solver.columns().size();
     bool jump = false;
     for (const HeldDof& h : interval.eliminated) {
-      dv[h.dof] = physics.prescribed(h, interval.begin, 1) - v()[h.dof];
+      dv[h.dof] = body->prescribed(h, interval.begin, 1) - v()[h.dof];
       jump = jump || dv[h.dof] != 0.0;
     }
     Vector target(static_cast<Eigen::Index>(columns)), impulse;
     for (std::size_t j = 0; j < columns; ++j) {
-      target[j] = physics.column_value(solver.columns()[j], interval.begin, 1) - solver.row_times(j, v().data());
+      target[j] = body->column_value(solver.columns()[j], interval.begin, 1) - solver.row_times(j, v().data());
       jump = jump || target[j] != 0.0;
     }
-    if (!jump) return;
+    if (!jump) return false;
     solver.solve(Vector::Zero(dv.size()), dv, target, impulse);
     model.multiply_mass(dv.data(), momentum.data());
     const double work = momentum.dot(v()) + 0.5 * momentum.dot(dv);
     v() += dv;
     book.book_impulse(work);
-    ++physics.counters().projections;
-  }
-
-  // Eliminated degrees of freedom are where they are told to be, exactly.
-  void impose_prescribed() {
-    for (const HeldDof& h : interval.eliminated) {
-      u()[h.dof] = physics.prescribed(h, time, 0);
-      v()[h.dof] = physics.prescribed(h, time, 1);
-    }
+    ++body->counters().projections;
+    return true;
   }
 
   double violation(std::size_t column) {
     const Column& c = interval.solver->columns()[column];
-    return interval.solver->row_times(column, u().data()) - physics.column_value(c, time, 0);
+    return interval.solver->row_times(column, u().data()) - body->column_value(c, time, 0);
   }
 
   // How far each general constraint is from fulfilled where a set of them begins; from here it may only decay.
@@ -163,20 +176,31 @@ struct Simulation::Impl {
     for (std::size_t j = 0; j < columns; ++j) allowed_violation[j] = 2.0 * std::abs(violation(j));
   }
 
-  void evaluate_now() {
-    if (evaluated) return;
-    physics.evaluate(y, now(), evaluation);
-    physics.rate(y, evaluation, y_rate);
-    powers = book.powers(y, y_rate, evaluation, time);
-    evaluated = true;
+  // The body's state is another one now.
+  void changed() {
+    y_current = false;
+    sampled = false;
     reaction_known = false;
   }
 
+  // y, the state in the mesh's order.
+  void fetch() {
+    if (y_current) return;
+    body->store(y);
+    y_current = true;
+  }
+
+  void sample_now() {
+    if (sampled) return;
+    sample = body->sample(time);
+    sample_time = time;
+    sampled = true;
+  }
+
   void know_reaction() {
-    evaluate_now();
     if (reaction_known) return;
-    physics.reaction(evaluation, now(), reaction);
-    external = physics.external_force(now());
+    body->reaction(time, reaction);
+    external = body->external_force(time);
     reaction_known = true;
   }
 
@@ -184,24 +208,25 @@ struct Simulation::Impl {
     const double start = time;
     const std::int64_t n = steps_in(end - start, bound);
     const double h = (end - start) / static_cast<double>(n);
-    largest_step = std::max(largest_step, h);
+    sample_now();
     for (std::int64_t k = 0; k < n; ++k) {
-      evaluate_now();
-      const Powers before = powers;
-      integrator->step(physics, time, h, y, y_rate);
+      integrator->step(*body, time, h, body->state(), body->known_rate());
       time = k + 1 == n ? end : start + static_cast<double>(k + 1) * h;
-      ++physics.counters().steps;
-      impose_prescribed();
-      evaluated = false;
-      evaluate_now();
-      book.book_step(before, powers, h);
+      ++body->counters().steps;
+      body->impose_prescribed(time);
+      changed();
+      if ((k + 1) % stride != 0 && k + 1 != n) continue;
+      const EnergySample before = sample;
+      const double since = sample_time;
+      sample_now();
+      book.book_step(before, sample, time - since);
       if (auto found = check_divergence()) return found;
     }
     return std::nullopt;
   }
 
   std::optional<Divergence> check_divergence() {
-    const double energy = book.kinetic(y) + book.stored(y, evaluation);
+    const double energy = sample.kinetic + sample.stored;
     const double allowed = book.work() + book.turnover();
     bool fine = energy <= allowed;  // false for NaN
     const double reach = allowed_violation.empty() ? 0.0 : u().lpNorm<Eigen::Infinity>();
@@ -242,23 +267,24 @@ struct Simulation::Impl {
   Model model;
   Schedule schedule;
   Spectrum spectrum;
-  Physics physics;
+  std::unique_ptr<Body> body;
   EnergyBook book;
   std::unique_ptr<Integrator> integrator;
+  std::int64_t stride = 1;  // steps from one energy sample to the next
 
   double limit = 0.0;
   double bound = 0.0;
-  double largest_step = 0.0;
   double time = 0.0;
   std::size_t index = 0;
   Interval interval;
-  std::vector<double> y, y_rate, zeros;
+  std::vector<double> y, zeros;
+  bool y_current = true;
   Vector base, dv, momentum;
   std::vector<int> owner;  // by degree of freedom: who holds it, -1: nobody
   std::vector<double> allowed_violation;
-  Evaluation evaluation;
-  Powers powers;
-  bool evaluated = false;
+  EnergySample sample;
+  double sample_time = 0.0;
+  bool sampled = false;
   Vector reaction, external;
   bool reaction_known = false;
   std::optional<Divergence> diverged;
@@ -276,7 +302,7 @@ double Simulation::stable_step() const { return impl_->limit; }
 double Simulation::step_bound() const { return impl_->bound; }
 double Simulation::time() const { return impl_->time; }
 std::optional<Divergence> Simulation::advance(double t) { return impl_->advance(t); }
-const Counters& Simulation::counters() const { return impl_->physics.counters(); }
+const Counters& Simulation::counters() const { return impl_->body->counters(); }
 
 std::int64_t Simulation::planned_steps() const {
   const TimeSettings& settings = impl_->scene.time;
@@ -299,25 +325,32 @@ std::int64_t Simulation::planned_steps() const {
 }
 
 std::span<const double> Simulation::u() const {
+  impl_->fetch();
   return {impl_->y.data() + impl_->model.layout.u(), impl_->model.layout.part};
 }
 std::span<const double> Simulation::v() const {
+  impl_->fetch();
   return {impl_->y.data() + impl_->model.layout.v(), impl_->model.layout.part};
 }
 std::span<const double> Simulation::w_lambda() const {
   if (!impl_->model.layout.lambda) return impl_->zeros;
+  impl_->fetch();
   return {impl_->y.data() + impl_->model.layout.w_lambda(), impl_->model.layout.part};
 }
 std::span<const double> Simulation::w_mu() const {
   if (!impl_->model.layout.mu) return impl_->zeros;
+  impl_->fetch();
   return {impl_->y.data() + impl_->model.layout.w_mu(), impl_->model.layout.part};
 }
 
 Energies Simulation::energies() const {
-  impl_->evaluate_now();
-  const EnergyBook& book = impl_->book;
-  return {book.kinetic(impl_->y), book.stored(impl_->y, impl_->evaluation), book.dissipated(), book.work()};
+  impl_->sample_now();
+  const EnergySample& now = impl_->sample;
+  if (impl_->stride > 1) return {now.kinetic, now.stored, not_asked, not_asked};
+  return {now.kinetic, now.stored, impl_->book.dissipated(), impl_->book.work()};
 }
+
+std::string_view Simulation::kernel() const { return impl_->body->kernel(); }
 
 std::span<const double> Simulation::reaction() {
   impl_->know_reaction();
@@ -330,8 +363,7 @@ std::span<const double> Simulation::external_force() {
 }
 
 std::span<const double> Simulation::multipliers() {
-  impl_->evaluate_now();
-  return {impl_->evaluation.multipliers.data(), impl_->scene.constraints.size()};
+  return impl_->body->multipliers(impl_->time).first(impl_->scene.constraints.size());
 }
 
 ProbeReading Simulation::read(const Probe& probe) {

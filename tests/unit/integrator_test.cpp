@@ -15,7 +15,7 @@ class Scalar final : public LinearOperator {
   Scalar(double s, double a) : s_(s), a_(a) {}
   std::size_t size() const override { return 1; }
   void fma(double h, std::span<const double> x, std::span<const double> base, const Forcing& f,
-           std::span<double> out) override {
+           std::span<double> out, Result) override {
     double g = 0.0;
     for (int k = 0; k < 4; ++k) g += f.weight[k] * std::pow(a_, k) * std::exp(a_ * f.t);
     out[0] = base[0] + h * (s_ * x[0] + g);
@@ -53,7 +53,7 @@ TEST(Rk4, IsTheTaylorPolynomialOfTheFlow) {
    public:
     std::size_t size() const override { return 1; }
     void fma(double h, std::span<const double> x, std::span<const double> base, const Forcing&,
-             std::span<double> out) override {
+             std::span<double> out, Result) override {
       out[0] = base[0] + h * x[0];
     }
   } op;
@@ -69,7 +69,7 @@ TEST(Rk4, IsExactForCubicForcing) {
    public:
     std::size_t size() const override { return 1; }
     void fma(double h, std::span<const double>, std::span<const double> base, const Forcing& f,
-             std::span<double> out) override {
+             std::span<double> out, Result) override {
       const double t = f.t;
       out[0] = base[0] + h * (f.weight[0] * t * t * t + f.weight[1] * 3 * t * t + f.weight[2] * 6 * t + f.weight[3] * 6);
     }

@@ -21,6 +21,9 @@ struct Forcing {
   std::array<double, 4> weight{};
 };
 
+// What a sweep's result is for: only another sweep (parts of y that feed on nothing may be left as they are), or the step.
+enum class Result { intermediate, step };
+
 // y' = A y + g(t), applied without forming A.
 class LinearOperator {
  public:
@@ -28,7 +31,7 @@ class LinearOperator {
   virtual std::size_t size() const = 0;
   // out = base + h (A x + forcing); out may be base, not x.
   virtual void fma(double h, std::span<const double> x, std::span<const double> base, const Forcing& forcing,
-                   std::span<double> out) = 0;
+                   std::span<double> out, Result result) = 0;
 };
 
 class Integrator {

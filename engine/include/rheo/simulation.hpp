@@ -19,6 +19,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rheo/scene.hpp"
@@ -54,8 +55,17 @@ struct Counters {
   std::int64_t projections = 0;        // velocity jumps where constraints begin
 };
 
+// Ways to the same rheological force.
+enum class Kernel {
+  automatic,  // edge where the scene allows it, else csr
+  csr,        // assembled matrices: every scene; the reference
+  edge        // by edges, vectorised: lumped mass, fixed and moved nodes eliminated
+};
+
 struct SimulationOptions {
   bool allow_unstable = false;  // run a step beyond the stable limit instead of refusing it
+  Kernel kernel = Kernel::automatic;
+  bool energies = true;  // without: dissipated and work are not known (NaN), and a step costs less
 };
 
 class Simulation {
@@ -73,6 +83,9 @@ class Simulation {
   double step_bound() const;
   // Steps from 0 to the scene's duration with outputs at its frame rate. Costs nothing: counted, not run.
   std::int64_t planned_steps() const;
+
+  // The kernel in use: "csr" or "edge".
+  std::string_view kernel() const;
 
   double time() const;
   // Runs to time t >= time(), in equal steps between the events on the way; nullopt when all is well.

@@ -1,0 +1,201 @@
+#include "assembled_body.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rheo {
+namespace {
+
+ConstVectorMap part(const Layout& layout, std::span<const double> y, std::size_t offset) {
+  return {y.data() + offset, static_cast<Eigen::Index>(layout.part)};
+}
+
+}  // namespace
+
+AssembledBody::AssembledBody(const Model& model, double omega) : Body(model, omega) {
+  state_.assign(model.layout.size(), 0.0);
+  rate_.assign(model.layout.size(), 0.0);
+  rhs_.setZero(static_cast<Eigen::Index>(model.layout.part));
+  momentum_.setZero(static_cast<Eigen::Index>(model.layout.part));
+}
+
+void AssembledBody::load(std::span<const double> y) {
+  std::copy(y.begin(), y.end(), state_.begin());
+  evaluated_ = false;
+}
+
+void AssembledBody::store(std::span<double> y) const { std::copy(state_.begin(), state_.end(), y.begin()); }
+
+void AssembledBody::enter(const Interval& interval, const Vector& base) {
+  Body::enter(interval, base);
+  target_.setZero(static_cast<Eigen::Index>(interval.solver->columns().size()));
+  evaluated_ = false;
+}
+
+void AssembledBody::impose_prescribed(double t) {
+  for (const HeldDof& h : interval_->eliminated) {
+    state_[model_.layout.u() + h.dof] = prescribed(h, t, 0);
+    state_[model_.layout.v() + h.dof] = prescribed(h, t, 1);
+  }
+  evaluated_ = false;
+}
+
+void AssembledBody::evaluate(std::span<const double> x, const Forcing& forcing, Evaluation& result) {
+  const Layout& layout = model_.layout;
+  const auto part = static_cast<Eigen::Index>(layout.part);
+  ++counters_.force_evaluations;
+
+  rhs_ = forcing.weight[0] * interval_->force;
+  if (interval_->force_rate.size() > 0) {
+    rhs_ += (forcing.weight[0] * (forcing.t - interval_->begin) + forcing.weight[1]) * interval_->force_rate;
+  }
+  if (layout.lambda) {
+    result.force_lambda.noalias() = model_.j_lambda * ConstVectorMap(x.data() + layout.w_lambda(), part);
+    rhs_ -= result.force_lambda;
+  }
+  if (layout.mu) {
+    result.force_mu.noalias() = model_.j_mu * ConstVectorMap(x.data() + layout.w_mu(), part);
+    rhs_ -= result.force_mu;
+  }
+
+  if (result.acceleration.size() != part) result.acceleration.setZero(part);
+  for (const HeldDof& h : interval_->eliminated) {
+    double a = 0.0;
+    if (interval_->moving) {
+      for (int k = 0; k < 4; ++k) {
+        if (forcing.weight[k] != 0.0) a += forcing.weight[k] * prescribed(h, forcing.t, 2 + k);
+      }
+    }
+    result.acceleration[h.dof] = a;
+  }
+
+  const ConstraintSolver& solver = *interval_->solver;
+  const double* u = x.data() + layout.u();
+  const double* v = x.data() + layout.v();
+  for (std::size_t j = 0; j < solver.columns().size(); ++j) {
+    double b = 0.0;
+    for (int k = 0; k < 4; ++k) {
+      if (forcing.weight[k] == 0.0) continue;
+      const Column& column = solver.columns()[j];
+      b += forcing.weight[k] *
+           (column_value(column, forcing.t, 2 + k) + 2 * omega_ * column_value(column, forcing.t, 1 + k) +
+            omega_ * omega_ * column_value(column, forcing.t, k));
+    }
+    target_[j] = b - 2 * omega_ * solver.row_times(j, v) - omega_ * omega_ * solver.row_times(j, u);
+  }
+  solver.solve(rhs_, result.acceleration, target_, result.multipliers);
+  if (model_.material.mass == Mass::consistent) ++counters_.mass_solves;
+  if (!solver.columns().empty()) ++counters_.constraint_solves;
+}
+
+void AssembledBody::fma(double h, std::span<const double> x, std::span<const double> base, const Forcing& forcing,
+                  std::span<double> out, Result) {
+  evaluated_ = false;  // the caller is about to change the state
+  evaluate(x, forcing, work_);
+  const Layout& layout = model_.layout;
+  const Material& material = model_.material;
+  const std::size_t part = layout.part;
+  const double* v = x.data() + layout.v();
+  for (std::size_t i = 0; i < part; ++i) {
+    out[layout.u() + i] = base[layout.u() + i] + h * v[i];
+    out[layout.v() + i] = base[layout.v() + i] + h * work_.acceleration[i];
+  }
+  const auto branch = [&](std::size_t offset, double ela, double decay) {
+    const double* w = x.data() + offset;
+    for (std::size_t i = 0; i < part; ++i) out[offset + i] = base[offset + i] + h * (ela * v[i] - decay * w[i]);
+  };
+  if (layout.lambda) branch(layout.w_lambda(), material.lambda_ela, material.lambda_rate());
+  if (layout.mu) branch(layout.w_mu(), material.mu_ela, material.mu_rate());
+}
+
+void AssembledBody::evaluate_state(double t) {
+  if (evaluated_) return;
+  evaluate(state_, {t, {1.0, 0.0, 0.0, 0.0}}, evaluation_);
+  const Layout& layout = model_.layout;
+  const Material& material = model_.material;
+  const double* v = state_.data() + layout.v();
+  for (std::size_t i = 0; i < layout.part; ++i) {
+    rate_[layout.u() + i] = v[i];
+    rate_[layout.v() + i] = evaluation_.acceleration[i];
+  }
+  const auto branch = [&](std::size_t offset, double ela, double decay) {
+    const double* w = state_.data() + offset;
+    for (std::size_t i = 0; i < layout.part; ++i) rate_[offset + i] = ela * v[i] - decay * w[i];
+  };
+  if (layout.lambda) branch(layout.w_lambda(), material.lambda_ela, material.lambda_rate());
+  if (layout.mu) branch(layout.w_mu(), material.mu_ela, material.mu_rate());
+  evaluated_ = true;
+}
+
+std::span<const double> AssembledBody::known_rate() const {
+  return evaluated_ ? std::span<const double>(rate_) : std::span<const double>();
+}
+
+EnergySample AssembledBody::sample(double t) {
+  evaluate_state(t);
+  const Layout& layout = model_.layout;
+  const Material& material = model_.material;
+  EnergySample p;
+  const auto branch = [&](std::size_t offset, const Vector& force, double ela, double vis) {
+    const double stored = part(layout, state_, offset).dot(force);
+    p.stored += 0.5 * stored / ela;
+    if (std::isinf(vis)) return;
+    p.dissipated += stored / vis;
+    p.dissipated_rate += 2.0 * part(layout, rate_, offset).dot(force) / vis;
+  };
+  if (layout.lambda) branch(layout.w_lambda(), evaluation_.force_lambda, material.lambda_ela, material.lambda_vis);
+  if (layout.mu) branch(layout.w_mu(), evaluation_.force_mu, material.mu_ela, material.mu_vis);
+
+  const auto u = part(layout, state_, layout.u());
+  const auto v = part(layout, state_, layout.v());
+  const auto a = part(layout, rate_, layout.v());
+  model_.multiply_mass(v.data(), momentum_.data());
+  p.kinetic = 0.5 * v.dot(momentum_);
+  p.load = interval_->force.dot(u);
+  p.load_power = interval_->force.dot(v);
+  if (interval_->force_rate.size() > 0) {
+    p.load_slope = interval_->force_rate.dot(u);
+    p.load_slope_rate = interval_->force_rate.dot(v);
+    p.load += (t - interval_->begin) * p.load_slope;
+    p.load_power += (t - interval_->begin) * p.load_slope_rate;
+  }
+  // Constraints work only where what they hold moves (general ones: by their drift). The reaction's slope is the
+  // reaction of the operator's derivative, A y' + g'.
+  if (interval_->moving || !interval_->solver->columns().empty()) {
+    const Forcing slope{t, {0.0, 1.0, 0.0, 0.0}};
+    reaction(evaluation_, {t, {1.0, 0.0, 0.0, 0.0}}, reaction_);
+    evaluate(rate_, slope, derivative_);
+    reaction(derivative_, slope, reaction_rate_);
+    p.constraints = reaction_.dot(v);
+    p.constraints_rate = reaction_rate_.dot(v) + reaction_.dot(a);
+  }
+  return p;
+}
+
+void AssembledBody::reaction(double t, Vector& out) {
+  evaluate_state(t);
+  reaction(evaluation_, {t, {1.0, 0.0, 0.0, 0.0}}, out);
+}
+
+std::span<const double> AssembledBody::multipliers(double t) {
+  evaluate_state(t);
+  return {evaluation_.multipliers.data(), static_cast<std::size_t>(evaluation_.multipliers.size())};
+}
+
+void AssembledBody::reaction(const Evaluation& evaluation, const Forcing& forcing, Vector& out) const {
+  out.resize(evaluation.acceleration.size());
+  model_.multiply_mass(evaluation.acceleration.data(), out.data());
+  if (model_.layout.lambda) out += evaluation.force_lambda;
+  if (model_.layout.mu) out += evaluation.force_mu;
+  out -= external_force(forcing);
+  std::vector<char> constrained(out.size(), 0);
+  for (const HeldDof& h : interval_->eliminated) constrained[h.dof] = 1;
+  for (const Column& column : interval_->solver->columns()) {
+    for (const auto& [dof, coefficient] : column.entries) constrained[dof] = 1;
+  }
+  for (Eigen::Index i = 0; i < out.size(); ++i) {
+    if (!constrained[i]) out[i] = 0.0;
+  }
+}
+
+}  // namespace rheo

@@ -1,0 +1,47 @@
+// A body by assembled matrices (Eigen, row-major): every mass, every constraint; the reference for the other kernels.
+//
+// The state is in the mesh's order.
+#pragma once
+
+#include <vector>
+
+#include "body.hpp"
+
+namespace rheo {
+
+class AssembledBody final : public Body {
+ public:
+  AssembledBody(const Model& model, double omega);
+
+  std::string_view kernel() const override { return "csr"; }
+  void load(std::span<const double> y) override;
+  void store(std::span<double> y) const override;
+  void enter(const Interval& interval, const Vector& base) override;
+  void impose_prescribed(double t) override;
+  void fma(double h, std::span<const double> x, std::span<const double> base, const Forcing& forcing,
+           std::span<double> out, Result result) override;
+  EnergySample sample(double t) override;
+  std::span<const double> known_rate() const override;
+  void reaction(double t, Vector& out) override;
+  std::span<const double> multipliers(double t) override;
+
+ private:
+  // All there is to know of a state's forces at one time.
+  struct Evaluation {
+    Vector acceleration;
+    Vector force_lambda, force_mu;  // J_lambda w_lambda, J_mu w_mu; empty for a branch that is off
+    Vector multipliers;             // one per general constraint
+  };
+
+  void evaluate(std::span<const double> x, const Forcing& forcing, Evaluation& result);
+  // evaluation_ and rate_ of the state at t.
+  void evaluate_state(double t);
+  void reaction(const Evaluation& evaluation, const Forcing& forcing, Vector& out) const;
+
+  Evaluation work_, evaluation_, derivative_;
+  std::vector<double> rate_;
+  bool evaluated_ = false;
+  Vector rhs_, target_, momentum_, reaction_, reaction_rate_;
+};
+
+}  // namespace rheo

@@ -1,0 +1,28 @@
+#include "body.hpp"
+
+namespace rheo {
+
+void Body::enter(const Interval& interval, const Vector& base) {
+  interval_ = &interval;
+  base_ = &base;
+}
+
+double Body::prescribed(const HeldDof& held, double t, int derivative) const {
+  const double course = interval_->course[held.owner][held.dof % 2].derivative(t, derivative);
+  return derivative == 0 ? (*base_)[held.dof] + course : course;
+}
+
+double Body::column_value(const Column& column, double t, int derivative) const {
+  if (column.owner >= 0) return prescribed({column.entries.front().first, column.owner}, t, derivative);
+  return derivative == 0 ? column.value : 0.0;
+}
+
+Vector Body::external_force(const Forcing& forcing) const {
+  Vector force = forcing.weight[0] * interval_->force;
+  if (interval_->force_rate.size() > 0) {
+    force += (forcing.weight[0] * (forcing.t - interval_->begin) + forcing.weight[1]) * interval_->force_rate;
+  }
+  return force;
+}
+
+}  // namespace rheo

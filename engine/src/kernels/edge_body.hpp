@@ -1,0 +1,64 @@
+// A lumped body with eliminated constraints by the edge form (edge_form.hpp): one fused sweep an evaluation.
+//
+// Not here consistent mass, general constraints: AssembledBody
+#pragma once
+
+#include <vector>
+
+#include "body.hpp"
+#include "kernels/edge_form.hpp"
+#include "kernels/edge_sweep.hpp"
+
+namespace rheo {
+
+class EdgeBody final : public Body {
+ public:
+  EdgeBody(const Mesh& mesh, const Model& model, SimdLevel level);
+
+  std::string_view kernel() const override { return "edge"; }
+  void load(std::span<const double> y) override;
+  void store(std::span<double> y) const override;
+  void enter(const Interval& interval, const Vector& base) override;
+  void impose_prescribed(double t) override;
+  void fma(double h, std::span<const double> x, std::span<const double> base, const Forcing& forcing,
+           std::span<double> out, Result result) override;
+  EnergySample sample(double t) override;
+  void reaction(double t, Vector& out) override;
+
+ private:
+  // The state's parts: p (n x 4), v (n x 2), u (n x 2).
+  std::size_t p() const { return 0; }
+  std::size_t v() const { return 4 * static_cast<std::size_t>(form_.nodes); }
+  std::size_t u() const { return 6 * static_cast<std::size_t>(form_.nodes); }
+  std::size_t slot(int dof) const { return 2 * static_cast<std::size_t>(form_.kernel_node[dof / 2]) + dof % 2; }
+
+  // h x (boundary terms of F / m) subtracted from out_v.
+  void add_boundary(double h, const double* x_p, double* out_v) const;
+  // F of the residual forces p in the kernel's order.
+  void rheological_force(const double* x_p, Vector& force);
+
+  EdgeForm form_;
+  SweepFunction sweep_;
+  SweepMaterial material_;
+  std::vector<double> mass_;          // n x 2, kernel order
+  std::vector<double> inverse_mass_;  // n x 2, zero where held
+  std::vector<double> zeros_, ones_;
+
+  // External forces by entry: only where there are any.
+  struct Load {
+    std::size_t slot = 0;
+    double acceleration = 0.0;  // force / mass at the interval's begin; 0 where held
+    double slope = 0.0;
+    double force = 0.0, force_slope = 0.0;
+  };
+  std::vector<Load> loads_;
+  struct Held {
+    std::size_t slot = 0;
+    HeldDof dof;
+  };
+  std::vector<Held> held_;
+  std::vector<double> p_rate_;
+  Vector force_, force_rate_;
+};
+
+}  // namespace rheo

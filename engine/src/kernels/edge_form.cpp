@@ -1,0 +1,150 @@
+#include "kernels/edge_form.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace rheo {
+namespace {
+
+constexpr int valence_window = 128;  // nodes that may change places to lengthen runs of equal valence
+
+struct DirectedEdge {
+  std::int32_t from = 0;
+  std::int32_t to = 0;
+  double s0 = 0.0, s1 = 0.0, s2 = 0.0;
+};
+
+// Both directions of every edge with its S, sorted by (from, to), each once.
+std::vector<DirectedEdge> directed_edges(const Mesh& mesh) {
+  std::vector<DirectedEdge> edges;
+  edges.reserve(mesh.triangles.size() * 6);
+  for (int e = 0; e < mesh.triangle_count(); ++e) {
+    const Triangle& t = mesh.triangles[e];
+    const double scale = mesh.thickness / (4.0 * signed_area(mesh, e));
+    std::array<Vec2, 3> q;  // (b, c)
+    for (int i = 0; i < 3; ++i) {
+      const Vec2& j = mesh.points[t[(i + 1) % 3]];
+      const Vec2& k = mesh.points[t[(i + 2) % 3]];
+      q[i] = {j.y - k.y, k.x - j.x};
+    }
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      const double xx = scale * q[i].x * q[j].x;
+      const double yy = scale * q[i].y * q[j].y;
+      const double xy = 0.5 * scale * (q[i].x * q[j].y + q[i].y * q[j].x);
+      const DirectedEdge edge{t[i], t[j], 0.5 * (xx + yy), 0.5 * (xx - yy), xy};
+      edges.push_back(edge);
+      edges.push_back({edge.to, edge.from, edge.s0, edge.s1, edge.s2});
+    }
+  }
+  // Counting sort by `from`, then a short sort in each node's list.
+  const std::size_t n = mesh.points.size();
+  std::vector<std::size_t> begin(n + 1, 0);
+  for (const DirectedEdge& e : edges) ++begin[e.from + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<DirectedEdge> sorted(edges.size());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  for (const DirectedEdge& e : edges) sorted[next[e.from]++] = e;
+  edges.clear();
+  for (std::size_t i = 0; i < n; ++i) {
+    std::stable_sort(sorted.begin() + static_cast<std::ptrdiff_t>(begin[i]),
+                     sorted.begin() + static_cast<std::ptrdiff_t>(begin[i + 1]),
+                     [](const DirectedEdge& a, const DirectedEdge& b) { return a.to < b.to; });
+    for (std::size_t k = begin[i]; k < begin[i + 1]; ++k) {
+      if (k > begin[i] && edges.back().to == sorted[k].to) {
+        edges.back().s0 += sorted[k].s0;
+        edges.back().s1 += sorted[k].s1;
+        edges.back().s2 += sorted[k].s2;
+      } else {
+        edges.push_back(sorted[k]);
+      }
+    }
+  }
+  return edges;
+}
+
+// Reverse Cuthill-McKee over every connected part, each from a node far from the middle (two breadth-first passes).
+std::vector<std::int32_t> narrow_order(std::size_t n, const std::vector<DirectedEdge>& edges,
+                                       const std::vector<std::size_t>& begin) {
+  std::vector<std::int32_t> order;
+  order.reserve(n);
+  std::vector<char> seen(n, 0);
+  const auto valence = [&](std::int32_t i) { return begin[i + 1] - begin[i]; };
+  const auto sweep = [&](std::int32_t start, std::vector<std::int32_t>& out) {
+    const std::size_t first = out.size();
+    out.push_back(start);
+    seen[start] = 1;
+    for (std::size_t k = first; k < out.size(); ++k) {
+      const std::size_t before = out.size();
+      for (std::size_t e = begin[out[k]]; e < begin[out[k] + 1]; ++e) {
+        if (seen[edges[e].to]) continue;
+        seen[edges[e].to] = 1;
+        out.push_back(edges[e].to);
+      }
+      std::stable_sort(out.begin() + static_cast<std::ptrdiff_t>(before), out.end(),
+                       [&](std::int32_t a, std::int32_t b) { return valence(a) < valence(b); });
+    }
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    if (seen[i]) continue;
+    std::vector<std::int32_t> part;
+    sweep(static_cast<std::int32_t>(i), part);
+    for (std::int32_t node : part) seen[node] = 0;
+    sweep(part.back(), order);
+  }
+  std::reverse(order.begin(), order.end());
+  return order;
+}
+
+}  // namespace
+
+EdgeForm::EdgeForm(const Mesh& mesh) : nodes(mesh.node_count()), quarter_thickness(mesh.thickness / 4) {
+  const auto n = static_cast<std::size_t>(nodes);
+  const std::vector<DirectedEdge> edges = directed_edges(mesh);
+  std::vector<std::size_t> begin(n + 1, 0);
+  for (const DirectedEdge& e : edges) ++begin[e.from + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+
+  mesh_node = narrow_order(n, edges, begin);
+  const auto valence = [&](std::int32_t node) { return static_cast<std::int32_t>(begin[node + 1] - begin[node]); };
+  for (std::size_t first = 0; first < n; first += valence_window) {
+    const std::size_t last = std::min(n, first + valence_window);
+    std::stable_sort(mesh_node.begin() + static_cast<std::ptrdiff_t>(first),
+                     mesh_node.begin() + static_cast<std::ptrdiff_t>(last),
+                     [&](std::int32_t a, std::int32_t b) { return valence(a) < valence(b); });
+  }
+  kernel_node.resize(n);
+  for (std::size_t k = 0; k < n; ++k) kernel_node[mesh_node[k]] = static_cast<std::int32_t>(k);
+
+  neighbour.reserve(edges.size());
+  s.reserve(3 * edges.size());
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::int32_t node = mesh_node[k];
+    if (runs.empty() || runs.back().valence != valence(node)) {
+      runs.push_back({static_cast<std::int32_t>(k), static_cast<std::int32_t>(k), valence(node),
+                      static_cast<std::int64_t>(neighbour.size())});
+    }
+    ++runs.back().last;
+    for (std::size_t e = begin[node]; e < begin[node + 1]; ++e) {
+      const std::int32_t other = kernel_node[edges[e].to];
+      neighbour.push_back(other);
+      s.insert(s.end(), {edges[e].s0, edges[e].s1, edges[e].s2});
+      bandwidth = std::max(bandwidth, std::abs(other - static_cast<std::int32_t>(k)));
+    }
+  }
+
+  // Follow the boundary through each of its nodes; at a node where two loops touch, each gives a passage.
+  const auto& boundary = mesh.edge_groups.at("boundary");
+  std::vector<std::vector<std::int32_t>> next(n);
+  for (const Edge& edge : boundary) next[edge[0]].push_back(edge[1]);
+  std::vector<std::size_t> used(n, 0);
+  for (const Edge& edge : boundary) {
+    const std::int32_t node = edge[1];
+    // The sum over a node's passages does not depend on how ends and beginnings are paired.
+    corners.push_back({kernel_node[node], kernel_node[edge[0]], kernel_node[next[node][used[node]++]]});
+  }
+}
+
+}  // namespace rheo

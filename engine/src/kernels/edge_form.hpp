@@ -1,0 +1,59 @@
+// The rheological force by edges: three numbers an edge carry both connection matrices (one material over the mesh).
+//
+//   F_i = sum_j S_ij (a_j - a_i) + trace(S_ij) (w_mu,j - w_mu,i)        a = w_lambda + w_mu
+//       + boundary: (h / 4) rot(g_next - g_prev),  g = w_lambda - w_mu, rot(x, y) = (y, -x)
+//   S_ij = sum over the triangles of edge ij of h / (4 T) sym((b_i, c_i) (b_j, c_j)^T)
+//
+// With S = s0 I + s1 diag(1, -1) + s2 antidiag(1, 1) and the combination b = a + 2 w_mu this is
+//
+//   F_i,x = sum_j s0 db_x + s1 da_x + s2 da_y,   F_i,y = sum_j s0 db_y - s1 da_y + s2 da_x
+//
+// so that kernels keep (b, a) at the nodes: six multiplications an edge end.
+//
+// Nodes are renumbered (reverse Cuthill-McKee, then by valence inside short stretches): neighbours lie near each other in
+// memory and runs of equal valence need no branch.
+//
+// Source   design of this project; J_mu,ij = J_lambda,ij^T + trace(J_lambda,ij) I for linear triangles
+// Units    s0, s1, s2 [m] (thickness included): F in N for w in Pa m
+// Shapes   n nodes in the kernel's own order; directed edges: each edge of the mesh twice
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "rheo/mesh.hpp"
+
+namespace rheo {
+
+struct EdgeForm {
+  explicit EdgeForm(const Mesh& mesh);
+
+  int nodes = 0;
+  std::vector<std::int32_t> mesh_node;    // n: number in the mesh of the kernel's node
+  std::vector<std::int32_t> kernel_node;  // n: its inverse
+
+  // Runs of nodes with one valence; directed edges lie one after the other in node order.
+  struct Run {
+    std::int32_t first = 0;  // node
+    std::int32_t last = 0;   // one past
+    std::int32_t valence = 0;
+    std::int64_t edge = 0;  // of `first`
+  };
+  std::vector<Run> runs;
+  std::vector<std::int32_t> neighbour;  // by directed edge
+  std::vector<double> s;                // 3 by directed edge: s0, s1, s2
+
+  // Boundary passages: previous and next node along the boundary (interior on the left) of a boundary node.
+  struct Corner {
+    std::int32_t node = 0;
+    std::int32_t previous = 0;
+    std::int32_t next = 0;
+  };
+  std::vector<Corner> corners;
+  double quarter_thickness = 0.0;  // h / 4
+
+  // For stages that follow each other through the mesh: a node's neighbours have numbers within this distance.
+  std::int32_t bandwidth = 0;
+};
+
+}  // namespace rheo

@@ -1,0 +1,48 @@
+// One sweep of the edge form for a lumped body with eliminated constraints: out = base + h (A x + g), fused.
+//
+//   p = (b_x, a_x, b_y, a_y) with a = w_lambda + w_mu, b = w_lambda + 3 w_mu (see edge_form.hpp)
+//   v' = (f - F(p)) / m,  p' = growth v - decay p,  u' = v
+//   decay couples b and a of one axis: p' = growth * v + own * p + cross * (the other of b, a)
+//
+// The same arithmetic in baseline, AVX2 and AVX-512 code, chosen at run time by what the processor has. Each rounds in its
+// own way; each alone is deterministic, whatever the number of threads.
+//
+// Shapes   p: n x 4, v: n x 2, inverse_mass: n x 2 (zero where a degree of freedom is held), all in the kernel's order
+// Errors   none
+#pragma once
+
+#include <cstdint>
+
+#include "kernels/edge_form.hpp"
+
+namespace rheo {
+
+struct SweepArrays {
+  const double* x_p = nullptr;
+  const double* x_v = nullptr;
+  const double* base_p = nullptr;
+  const double* base_v = nullptr;
+  double* out_p = nullptr;
+  double* out_v = nullptr;
+  const double* base_u = nullptr;  // null where this sweep leaves u alone
+  double* out_u = nullptr;
+};
+
+struct SweepMaterial {
+  double growth[4] = {};  // of (b_x, a_x, b_y, a_y) by v
+  double own[4] = {};
+  double cross[4] = {};
+};
+
+enum class SimdLevel { baseline, avx2, avx512 };
+
+const char* name_of(SimdLevel level);
+// The best that this processor and this build have.
+SimdLevel best_simd_level();
+bool has_simd_level(SimdLevel level);
+
+using SweepFunction = void (*)(const EdgeForm& form, const double* inverse_mass, const SweepMaterial& material, double h,
+                               const SweepArrays& arrays, std::int32_t first_run, std::int32_t last_run);
+SweepFunction sweep_function(SimdLevel level);
+
+}  // namespace rheo
