@@ -447,6 +447,8 @@ TEST(BadScene, CharactersBeyondAsciiBelongInQuotesAndComments) {
   auto lines = all_keys();
   lines[0] = "title = \"\"\"\n\\\"\xC3\xA9\"\"\"\"  # \xC3\xA9";
   EXPECT_EQ(parse_lines(lines).title, "\"\xC3\xA9\"");
+  lines[0] = "title = \"\"\"a \\\n \xC3\xA9\"\"\"";
+  EXPECT_EQ(parse_lines(lines).title, "a \xC3\xA9");
   lines[0] = "title = '\\\xC3\xA9'";
   EXPECT_EQ(parse_lines(lines).title, "\\\xC3\xA9");
 }

@@ -15,16 +15,17 @@
 namespace rheo {
 
 void strain(const Mesh& mesh, std::span<const double> u, std::span<double> out);
-void stress(const Mesh& mesh, std::span<const double> w_lambda, std::span<const double> w_mu, std::span<double> out);
+void stress(const Mesh& mesh, std::span<const double> w_lambda, std::span<const double> w_mu,
+            std::span<double> out);
 
 // The worst triangle of a state in each of the three ways in which a linear model stops meaning anything.
 struct LinearityReport {
-  int inverted = 0;          // triangles turned inside out: det(I + grad u) <= 0
-  int first_inverted = -1;   // the lowest number among them, -1: none
-  int most_strained = 0;     // triangle with the largest principal strain (absolute)
-  double strain = 0.0;       // that strain
-  int most_rotated = 0;      // triangle with the largest rotation
-  double rotation = 0.0;     // that angle, from the polar decomposition of I + grad u [rad]
+  int inverted = 0;         // triangles turned inside out: det(I + grad u) <= 0
+  int first_inverted = -1;  // the lowest number among them, -1: none
+  int most_strained = 0;    // triangle with the largest principal strain (absolute)
+  double strain = 0.0;      // that strain
+  int most_rotated = 0;     // triangle with the largest rotation
+  double rotation = 0.0;    // that angle, from the polar decomposition of I + grad u [rad]
 };
 LinearityReport check_linearity(const Mesh& mesh, std::span<const double> u);
 

@@ -26,20 +26,22 @@ struct Mesh {
   std::vector<Vec2> points;
   std::vector<Triangle> triangles;
   double thickness = 1.0;
-  // Named edges. prepare() adds "boundary": every edge with a triangle on one side only, the interior on its left.
+  // Named edges. prepare() adds "boundary": every edge with a triangle on one side only, the interior on its
+  // left.
   std::map<std::string, std::vector<Edge>> edge_groups;
 
   int node_count() const { return static_cast<int>(points.size()); }
   int triangle_count() const { return static_cast<int>(triangles.size()); }
 };
 
-// Makes a mesh fit for use: turns clockwise triangles round (and returns how many), adds the group "boundary" and turns
-// every edge of the other groups so that a boundary edge has the interior on its left. Preparing twice changes nothing.
-// Refuses: no triangles, a node number out of range, a triangle with a repeated node or no area (doubled area at most
-// 1e-12 of its longest side squared), the same triangle twice, an edge with more than two triangles or with two on the
-// same side, a node without a triangle, a non-finite coordinate, a thickness that is not positive and finite, a group
-// edge that is no edge of the mesh or is there twice, a group "boundary" that is not the boundary. `where` (a file
-// name, say) begins the message when not empty. After an error the mesh is not to be used.
+// Makes a mesh fit for use: turns clockwise triangles round (and returns how many), adds the group "boundary"
+// and turns every edge of the other groups so that a boundary edge has the interior on its left. Preparing
+// twice changes nothing. Refuses: no triangles, a node number out of range, a triangle with a repeated node
+// or no area (doubled area at most 1e-12 of its longest side squared), the same triangle twice, an edge with
+// more than two triangles or with two on the same side, a node without a triangle, a non-finite coordinate, a
+// thickness that is not positive and finite, a group edge that is no edge of the mesh or is there twice, a
+// group "boundary" that is not the boundary. `where` (a file name, say) begins the message when not empty.
+// After an error the mesh is not to be used.
 int prepare(Mesh& mesh, const std::string& where = {});
 
 // Half the cross product of two sides; positive when counter-clockwise. [m^2]

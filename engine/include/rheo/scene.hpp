@@ -2,7 +2,8 @@
 //
 // Units    SI
 // Errors   validate: Error::Kind::input; the text begins with the item's `where`
-// Not here reading files (io/scene_file.hpp); nothing here knows about pictures but the settings a file may carry
+// Not here reading files (io/scene_file.hpp); nothing here knows about pictures but the settings a file may
+// carry
 #pragma once
 
 #include <array>
@@ -76,7 +77,8 @@ struct TractionKey {
 // A pressure of fixed direction over the reference length of edges: h l P / 2 to each of an edge's nodes.
 struct Traction {
   std::vector<Edge> edges;
-  std::vector<TractionKey> keys;  // one: constant; more: linear between, constant outside; times strictly rising
+  std::vector<TractionKey>
+      keys;  // one: constant; more: linear between, constant outside; times strictly rising
   Window window;
   std::string where;
 };
@@ -125,7 +127,8 @@ struct Scene {
   std::vector<Probe> probes;
   TimeSettings time;
   PictureSettings picture;
-  std::vector<std::string> notes;  // remarks of the reader for the user ("12 clockwise triangles turned round")
+  std::vector<std::string>
+      notes;  // remarks of the reader for the user ("12 clockwise triangles turned round")
 };
 
 // Limits against slips of the pen that would fill a disk or never end.
@@ -138,7 +141,8 @@ inline constexpr int max_picture_side = 16384;
 void validate(const TimeSettings& time);
 void validate(const PictureSettings& picture);
 
-// Checks values and node numbers; what depends on the active constraints is checked by Simulation's constructor.
+// Checks values and node numbers; what depends on the active constraints is checked by Simulation's
+// constructor.
 void validate(const Scene& scene);
 
 }  // namespace rheo

@@ -1,7 +1,8 @@
 // Meshes of simple outlines.
 //
 // Units    m
-// Errors   Error::Kind::input for sizes and counts that make no mesh, and for meshes of more than max_shape_nodes nodes
+// Errors   Error::Kind::input for sizes and counts that make no mesh, and for meshes of more than
+// max_shape_nodes nodes
 //          (before their memory is asked for)
 #pragma once
 
@@ -22,9 +23,8 @@ enum class Diagonal {
 // Prepared. Edge groups: left, right, bottom, top, boundary.
 Mesh rectangle(Vec2 size, int nx, int ny, Diagonal diagonal = Diagonal::falling);
 
-// A node in the middle (the origin) and 6 k nodes on ring k = 1..rings; ring k begins at node 1 + 3 k (k - 1), on the
-// positive x axis, and runs counter-clockwise. Prepared. Edge groups: rim,
-// boundary.
+// A node in the middle (the origin) and 6 k nodes on ring k = 1..rings; ring k begins at node 1 + 3 k (k -
+// 1), on the positive x axis, and runs counter-clockwise. Prepared. Edge groups: rim, boundary.
 Mesh disk(double radius, int rings);
 
 }  // namespace rheo

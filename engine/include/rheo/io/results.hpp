@@ -1,8 +1,8 @@
 // Result files: state.csv and ParaView's .vtu/.pvd.
 //
 // state.csv: node,x,y,ux,uy,vx,vy,w_lambda_x,w_lambda_y,w_mu_x,w_mu_y with 17 significant digits.
-// .vtu: points in the reference position, point data u, v, w_lambda, w_mu (3 components), cell data strain and stress
-// (xx, yy, xy) [Pa].
+// .vtu: points in the reference position, point data u, v, w_lambda, w_mu (3 components), cell data strain
+// and stress (xx, yy, xy) [Pa].
 //
 // Errors   Error::Kind::file
 #pragma once

@@ -1,6 +1,7 @@
 // Scene files (TOML).
 //
-// Errors   Error::Kind::input: one line "file:line: [table] key = value: what is allowed" (with the nearest known key for
+// Errors   Error::Kind::input: one line "file:line: [table] key = value: what is allowed" (with the nearest
+// known key for
 //          a misspelt one); Error::Kind::file where the file cannot be read
 #pragma once
 
