@@ -24,7 +24,9 @@ void AssembledBody::load(std::span<const double> y) {
   evaluated_ = false;
 }
 
-void AssembledBody::store(std::span<double> y) const { std::copy(state_.begin(), state_.end(), y.begin()); }
+void AssembledBody::store(std::span<double> y) const {
+  std::copy(state_.begin(), state_.end(), y.begin());
+}
 
 void AssembledBody::enter(const Interval& interval, const Vector& base) {
   Body::enter(interval, base);
@@ -88,8 +90,8 @@ void AssembledBody::evaluate(std::span<const double> x, const Forcing& forcing, 
   if (!solver.columns().empty()) ++counters_.constraint_solves;
 }
 
-void AssembledBody::fma(double h, std::span<const double> x, std::span<const double> base, const Forcing& forcing,
-                  std::span<double> out, Result) {
+void AssembledBody::fma(double h, std::span<const double> x, std::span<const double> base,
+                        const Forcing& forcing, std::span<double> out, Result) {
   evaluated_ = false;  // the caller is about to change the state
   evaluate(x, forcing, work_);
   const Layout& layout = model_.layout;
@@ -102,7 +104,8 @@ void AssembledBody::fma(double h, std::span<const double> x, std::span<const dou
   }
   const auto branch = [&](std::size_t offset, double ela, double decay) {
     const double* w = x.data() + offset;
-    for (std::size_t i = 0; i < part; ++i) out[offset + i] = base[offset + i] + h * (ela * v[i] - decay * w[i]);
+    for (std::size_t i = 0; i < part; ++i)
+      out[offset + i] = base[offset + i] + h * (ela * v[i] - decay * w[i]);
   };
   if (layout.lambda) branch(layout.w_lambda(), material.lambda_ela, material.lambda_rate());
   if (layout.mu) branch(layout.w_mu(), material.mu_ela, material.mu_rate());
@@ -143,7 +146,8 @@ EnergySample AssembledBody::sample(double t) {
     p.dissipated += stored / vis;
     p.dissipated_rate += 2.0 * part(layout, rate_, offset).dot(force) / vis;
   };
-  if (layout.lambda) branch(layout.w_lambda(), evaluation_.force_lambda, material.lambda_ela, material.lambda_vis);
+  if (layout.lambda)
+    branch(layout.w_lambda(), evaluation_.force_lambda, material.lambda_ela, material.lambda_vis);
   if (layout.mu) branch(layout.w_mu(), evaluation_.force_mu, material.mu_ela, material.mu_vis);
 
   const auto u = part(layout, state_, layout.u());
@@ -159,8 +163,8 @@ EnergySample AssembledBody::sample(double t) {
     p.load += (t - interval_->begin) * p.load_slope;
     p.load_power += (t - interval_->begin) * p.load_slope_rate;
   }
-  // Constraints work only where what they hold moves (general ones: by their drift). The reaction's slope is the
-  // reaction of the operator's derivative, A y' + g'.
+  // Constraints work only where what they hold moves (general ones: by their drift). The reaction's slope is
+  // the reaction of the operator's derivative, A y' + g'.
   if (interval_->moving || !interval_->solver->columns().empty()) {
     const Forcing slope{t, {0.0, 1.0, 0.0, 0.0}};
     reaction(evaluation_, {t, {1.0, 0.0, 0.0, 0.0}}, reaction_);

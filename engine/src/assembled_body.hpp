@@ -1,4 +1,5 @@
-// A body by assembled matrices (Eigen, row-major): every mass, every constraint; the reference for the other kernels.
+// A body by assembled matrices (Eigen, row-major): every mass, every constraint; the reference for the other
+// kernels.
 //
 // The state is in the mesh's order.
 #pragma once

@@ -1,11 +1,12 @@
 // The rheological body between two events as a linear operator y' = A y + g(t), with the state it acts on.
 //
 //   u'        = v
-//   M v'      = f(t) - J_lambda w_lambda - J_mu w_mu + A L,  v_c' = b''(t) where a degree of freedom is eliminated
-//   A^T v'    = b'' - 2 omega (A^T v - b') - omega^2 (A^T u - b) for the general constraints
+//   M v'      = f(t) - J_lambda w_lambda - J_mu w_mu + A L,  v_c' = b''(t) where a degree of freedom is
+//   eliminated A^T v'    = b'' - 2 omega (A^T v - b') - omega^2 (A^T u - b) for the general constraints
 //   w_lambda' = -lambda_rate w_lambda + lambda_ela v,  w_mu' likewise
 //
-// Each kind of body keeps its state in an order of its own; load() and store() translate to the mesh's (Layout).
+// Each kind of body keeps its state in an order of its own; load() and store() translate to the mesh's
+// (Layout).
 //
 // Source   Hirai and Tomokuni, eq. (4)
 // Shapes   y: Layout; f, reaction: 2n
@@ -26,9 +27,9 @@ namespace rheo {
 // What holds from one event to the next.
 struct Interval {
   double begin = 0.0;
-  Vector force;                 // external force at `begin` [N]
-  Vector force_rate;            // its slope; empty where nothing changes
-  std::vector<HeldDof> held;    // eliminated or, by Baumgarte for all, turned into columns
+  Vector force;               // external force at `begin` [N]
+  Vector force_rate;          // its slope; empty where nothing changes
+  std::vector<HeldDof> held;  // eliminated or, by Baumgarte for all, turned into columns
   std::vector<HeldDof> eliminated;
   std::vector<std::array<Polynomial, 2>> course;  // by holder: increment since the hold began
   std::shared_ptr<const ConstraintSolver> solver;
@@ -37,12 +38,12 @@ struct Interval {
 
 // Energies and powers at one moment, with the time derivatives that the quadrature of the powers wants.
 struct EnergySample {
-  double kinetic = 0.0, stored = 0.0;               // [J]
-  double dissipated = 0.0, dissipated_rate = 0.0;   // [W], [W/s]
-  double constraints = 0.0, constraints_rate = 0.0; // power of the constraint forces
-  double load = 0.0;                                // f^T u [J]
-  double load_power = 0.0;                          // f^T v [W]
-  double load_slope = 0.0, load_slope_rate = 0.0;   // f'^T u [W], f'^T v [W/s]
+  double kinetic = 0.0, stored = 0.0;                // [J]
+  double dissipated = 0.0, dissipated_rate = 0.0;    // [W], [W/s]
+  double constraints = 0.0, constraints_rate = 0.0;  // power of the constraint forces
+  double load = 0.0;                                 // f^T u [J]
+  double load_power = 0.0;                           // f^T v [W]
+  double load_slope = 0.0, load_slope_rate = 0.0;    // f'^T u [W], f'^T v [W/s]
 };
 
 class Body : public LinearOperator {

@@ -15,15 +15,17 @@ namespace {
 
 constexpr double schur_memory_limit = 4e9;  // bytes
 
-// A pivot of the Schur complement is the squared sine of the angle between a constraint and those before it (relative
-// to its diagonal); below this it is rounding.
+// A pivot of the Schur complement is the squared sine of the angle between a constraint and those before it
+// (relative to its diagonal); below this it is rounding.
 constexpr double dependent_pivot = 1e-11;
 
 std::string describe(const Holder& holder) {
   return holder.where.empty() ? (holder.move ? "[[move]]" : "[[fix]]") : holder.where;
 }
 
-char axis_name(int dof) { return dof % 2 == 0 ? 'x' : 'y'; }
+char axis_name(int dof) {
+  return dof % 2 == 0 ? 'x' : 'y';
+}
 
 bool agree(const Holder& a, const Holder& b) {
   if (a.move == nullptr || b.move == nullptr) return a.move == b.move;
@@ -34,8 +36,10 @@ bool agree(const Holder& a, const Holder& b) {
 
 std::vector<Holder> holders_of(const Scene& scene) {
   std::vector<Holder> holders;
-  for (const Fix& fix : scene.fixes) holders.push_back({&fix.nodes, fix.axis, fix.window, nullptr, fix.where});
-  for (const Move& move : scene.moves) holders.push_back({&move.nodes, move.axis, move.window, &move, move.where});
+  for (const Fix& fix : scene.fixes)
+    holders.push_back({&fix.nodes, fix.axis, fix.window, nullptr, fix.where});
+  for (const Move& move : scene.moves)
+    holders.push_back({&move.nodes, move.axis, move.window, &move, move.where});
   return holders;
 }
 
@@ -48,7 +52,8 @@ std::vector<HeldDof> held_dofs(const std::vector<Holder>& holders, const std::ve
       if (holders[i].axis != Axis::x) held.push_back({2 * node + 1, static_cast<int>(i)});
     }
   }
-  std::stable_sort(held.begin(), held.end(), [](const HeldDof& a, const HeldDof& b) { return a.dof < b.dof; });
+  std::stable_sort(held.begin(), held.end(),
+                   [](const HeldDof& a, const HeldDof& b) { return a.dof < b.dof; });
   std::vector<HeldDof> unique;
   for (const HeldDof& h : held) {
     if (unique.empty() || unique.back().dof != h.dof) {
@@ -58,10 +63,12 @@ std::vector<HeldDof> held_dofs(const std::vector<Holder>& holders, const std::ve
     const Holder& first = holders[unique.back().owner];
     const Holder& second = holders[h.owner];
     if (!agree(first, second)) {
-      throw Error(Error::Kind::input,
-                  fmt::format("{}: node {} is held in {} by {} at the same time, in another way: let the windows (from, "
-                              "until) not overlap, or leave the node out of one",
-                              describe(second), h.dof / 2, axis_name(h.dof), describe(first)));
+      throw Error(
+          Error::Kind::input,
+          fmt::format(
+              "{}: node {} is held in {} by {} at the same time, in another way: let the windows (from, "
+              "until) not overlap, or leave the node out of one",
+              describe(second), h.dof / 2, axis_name(h.dof), describe(first)));
     }
   }
   return unique;
@@ -135,10 +142,12 @@ void ConstraintSolver::factor_schur() {
   const std::size_t m = columns_.size();
   const bool dense = model_.material.mass == Mass::consistent;
   if (dense && 40.0 * static_cast<double>(m) * static_cast<double>(m) > schur_memory_limit) {
-    throw Error(Error::Kind::input,
-                fmt::format("{} general constraints with consistent mass need about {:.1f} GB, the limit is {:.1f} GB: use "
-                            "mass = \"lumped\" or constraints = \"auto\"",
-                            m, 40e-9 * static_cast<double>(m) * static_cast<double>(m), schur_memory_limit * 1e-9));
+    throw Error(
+        Error::Kind::input,
+        fmt::format(
+            "{} general constraints with consistent mass need about {:.1f} GB, the limit is {:.1f} GB: use "
+            "mass = \"lumped\" or constraints = \"auto\"",
+            m, 40e-9 * static_cast<double>(m) * static_cast<double>(m), schur_memory_limit * 1e-9));
   }
   // Columns by degree of freedom, to find the few that a vector M^-1 A_j touches.
   std::vector<std::vector<std::pair<int, double>>> by_dof(free_.size());
@@ -154,17 +163,20 @@ void ConstraintSolver::factor_schur() {
     const int row = static_cast<int>(j);
     if (dense) {
       column.setZero();
-      for (const auto& [dof, coefficient] : columns_[j].entries) column[dof] += free_[dof] ? coefficient : 0.0;
+      for (const auto& [dof, coefficient] : columns_[j].entries)
+        column[dof] += free_[dof] ? coefficient : 0.0;
       y.setZero();
       apply_inverse_mass(column, y);
       for (std::size_t i = 0; i < m; ++i) {
         double sum = 0.0;
-        for (const auto& [dof, coefficient] : columns_[i].entries) sum += free_[dof] ? coefficient * y[dof] : 0.0;
+        for (const auto& [dof, coefficient] : columns_[i].entries)
+          sum += free_[dof] ? coefficient * y[dof] : 0.0;
         entries.emplace_back(static_cast<int>(i), row, sum);
       }
     } else {
       for (const auto& [dof, coefficient] : columns_[j].entries) {
-        for (const auto& [i, other] : by_dof[dof]) entries.emplace_back(i, row, coefficient * other * inverse_mass_[dof]);
+        for (const auto& [i, other] : by_dof[dof])
+          entries.emplace_back(i, row, coefficient * other * inverse_mass_[dof]);
       }
     }
   }
@@ -175,7 +187,8 @@ void ConstraintSolver::factor_schur() {
   Vector scale(size);
   for (std::size_t j = 0; j < m; ++j) {
     double largest = 0.0;
-    for (const auto& [dof, coefficient] : columns_[j].entries) largest = std::max(largest, std::abs(coefficient));
+    for (const auto& [dof, coefficient] : columns_[j].entries)
+      largest = std::max(largest, std::abs(coefficient));
     const double diagonal = schur.coeff(static_cast<int>(j), static_cast<int>(j));
     const double mass = model_.node_mass[columns_[j].entries.front().first / 2];
     if (!(diagonal > dependent_pivot * largest * largest / mass)) refuse_dependent(j);
@@ -185,14 +198,16 @@ void ConstraintSolver::factor_schur() {
   schur_->compute(schur);
   const Vector pivots = schur_->vectorD();
   for (Eigen::Index k = 0; k < size; ++k) {
-    const int j = schur_->permutationPinv().size() > 0 ? schur_->permutationPinv().indices()[k] : static_cast<int>(k);
+    const int j =
+        schur_->permutationPinv().size() > 0 ? schur_->permutationPinv().indices()[k] : static_cast<int>(k);
     if (!(pivots[k] > dependent_pivot * scale[j])) refuse_dependent(j);
   }
 }
 
 void ConstraintSolver::refuse_dependent(std::size_t column) const {
-  // Which of the two it is: c with A c = A_column in the least-squares sense over the free degrees of freedom, then
-  // compare the values. Only on the way to an error, so dense algebra over the entries' degrees of freedom will do.
+  // Which of the two it is: c with A c = A_column in the least-squares sense over the free degrees of
+  // freedom, then compare the values. Only on the way to an error, so dense algebra over the entries' degrees
+  // of freedom will do.
   std::vector<int> dofs;
   for (const Column& c : columns_) {
     for (const auto& [dof, coefficient] : c.entries) {
@@ -206,8 +221,10 @@ void ConstraintSolver::refuse_dependent(std::size_t column) const {
   const bool small = dofs.size() < 2000 && columns_.size() < 2000;
   std::string verdict = "follows from or contradicts";
   if (dofs.empty()) {
-    throw Error(Error::Kind::input,
-                fmt::format("{}: all its nodes are held already, it follows from or contradicts that: take it out", name));
+    throw Error(
+        Error::Kind::input,
+        fmt::format("{}: all its nodes are held already, it follows from or contradicts that: take it out",
+                    name));
   }
   if (small && columns_.size() > 1) {
     const auto rows = static_cast<Eigen::Index>(dofs.size());
@@ -229,7 +246,8 @@ void ConstraintSolver::refuse_dependent(std::size_t column) const {
     verdict = std::abs(implied - offender.value) <= 1e-9 * size ? "follows from" : "contradicts";
   }
   throw Error(Error::Kind::input,
-              fmt::format("{}: this constraint {} the others (they are linearly dependent): take one out", name, verdict));
+              fmt::format("{}: this constraint {} the others (they are linearly dependent): take one out",
+                          name, verdict));
 }
 
 void ConstraintSolver::solve(const Vector& r, Vector& a, const Vector& target, Vector& multipliers) const {

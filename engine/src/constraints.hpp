@@ -1,13 +1,16 @@
 // Which degrees of freedom are held, and the solution of the dynamics under them.
 //
-//   M a - A L = r,   a_c given on eliminated degrees of freedom c,   A^T a = target for the general constraints
+//   M a - A L = r,   a_c given on eliminated degrees of freedom c,   A^T a = target for the general
+//   constraints
 //
-// Eliminated exactly: M_ff a_f = r_f - M_fc a_c. General: L = (A_f^T M_ff^-1 A_f)^-1 (target - A^T a), a_f += M_ff^-1 A_f L,
-// the Schur complement factored once. This is the KKT system of equation (4), solved by blocks.
+// Eliminated exactly: M_ff a_f = r_f - M_fc a_c. General: L = (A_f^T M_ff^-1 A_f)^-1 (target - A^T a), a_f +=
+// M_ff^-1 A_f L, the Schur complement factored once. This is the KKT system of equation (4), solved by
+// blocks.
 //
 // Source   Hirai and Tomokuni, eq. (4)
 // Shapes   r, a: 2n; L, target: one per general constraint
-// Errors   Error::Kind::input: a node held in two ways at once, dependent or contradictory general constraints, more of
+// Errors   Error::Kind::input: a node held in two ways at once, dependent or contradictory general
+// constraints, more of
 //          them than memory for their dense Schur complement (consistent mass)
 #pragma once
 
@@ -36,12 +39,12 @@ struct HeldDof {
   int owner = 0;  // index into the holders
 };
 
-// Every degree of freedom that a holder holds at time t, each once, in rising order. Overlaps are allowed where they
-// agree (two fixes; two moves of one course), else refused by name.
+// Every degree of freedom that a holder holds at time t, each once, in rising order. Overlaps are allowed
+// where they agree (two fixes; two moves of one course), else refused by name.
 std::vector<HeldDof> held_dofs(const std::vector<Holder>& holders, const std::vector<char>& active);
 
-// A general constraint: one column of A. Either a [[constraint]] of the scene (constant value) or, by Baumgarte for all,
-// one held degree of freedom.
+// A general constraint: one column of A. Either a [[constraint]] of the scene (constant value) or, by
+// Baumgarte for all, one held degree of freedom.
 struct Column {
   std::vector<std::pair<int, double>> entries;  // dof, coefficient
   double value = 0.0;                           // for [[constraint]]
@@ -56,8 +59,8 @@ class ConstraintSolver {
   const std::vector<Column>& columns() const { return columns_; }
   bool is_free(std::size_t dof) const { return free_[dof] != 0; }
 
-  // a: on entry the given values on eliminated degrees of freedom (others ignored), on return the whole solution.
-  // target: one number a column; on return of the same size, multipliers = L.
+  // a: on entry the given values on eliminated degrees of freedom (others ignored), on return the whole
+  // solution. target: one number a column; on return of the same size, multipliers = L.
   void solve(const Vector& r, Vector& a, const Vector& target, Vector& multipliers) const;
 
   // sum over the entries of a column
@@ -74,7 +77,7 @@ class ConstraintSolver {
   const Model& model_;
   std::vector<Column> columns_;
   std::vector<char> free_;
-  Vector inverse_mass_;               // lumped: 2n, zero where eliminated
+  Vector inverse_mass_;  // lumped: 2n, zero where eliminated
   struct AxisFactor {
     std::vector<int> nodes;  // free nodes of this axis
     std::unique_ptr<Factor> factor;

@@ -9,7 +9,8 @@ namespace {
 // Explicit Euler: y + h (A y + g).
 class Euler final : public Integrator {
  public:
-  void step(LinearOperator& op, double t, double h, std::span<double> y, std::span<const double> rate) override {
+  void step(LinearOperator& op, double t, double h, std::span<double> y,
+            std::span<const double> rate) override {
     if (!rate.empty()) {
       for (std::size_t i = 0; i < y.size(); ++i) y[i] += h * rate[i];
       return;
@@ -44,7 +45,8 @@ class Euler final : public Integrator {
 // (g at shifted times, as in the tableau, would lose the order in this form.)
 class Rk4 final : public Integrator {
  public:
-  void step(LinearOperator& op, double t, double h, std::span<double> y, std::span<const double> rate) override {
+  void step(LinearOperator& op, double t, double h, std::span<double> y,
+            std::span<const double> rate) override {
     assert(y.size() == a_.size());
     if (rate.empty()) {
       op.fma(h / 4, y, y, {t, {1.0, 0.0, 0.0, 0.0}}, a_, Result::intermediate);

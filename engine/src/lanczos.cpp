@@ -40,7 +40,8 @@ RitzBound largest_frequency(const Model& model, const ConstraintSolver& solver) 
   Vector start(size);
   std::uint64_t seed = 1;
   for (Eigen::Index i = 0; i < size; ++i) {
-    start[i] = solver.is_free(static_cast<std::size_t>(i)) ? pseudo_random(seed) * model.node_mass[i / 2] : 0.0;
+    start[i] =
+        solver.is_free(static_cast<std::size_t>(i)) ? pseudo_random(seed) * model.node_mass[i / 2] : 0.0;
   }
   Vector q(size), previous = Vector::Zero(size), next(size);
   project(start, q);

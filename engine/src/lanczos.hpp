@@ -1,9 +1,10 @@
 // Largest natural frequency of what the constraints leave free.
 //
-//   omega_max^2 = largest eigenvalue of P M^-1 (lambda_ela J_lambda + mu_ela J_mu),  P the projection by the constraints
+//   omega_max^2 = largest eigenvalue of P M^-1 (lambda_ela J_lambda + mu_ela J_mu),  P the projection by the
+//   constraints
 //
-// The operator is self-adjoint in the inner product of M: three-term Lanczos, from a fixed pseudo-random start. The Ritz
-// value approaches from below; its residual norm is added.
+// The operator is self-adjoint in the inner product of M: three-term Lanczos, from a fixed pseudo-random
+// start. The Ritz value approaches from below; its residual norm is added.
 //
 // Source   Parlett, The Symmetric Eigenvalue Problem, 1980, ch. 13
 // Units    omega [rad/s]

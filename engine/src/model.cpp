@@ -54,8 +54,8 @@ SparseMatrix connection_matrix(const Mesh& mesh, Tensor tensor) {
   return matrix;
 }
 
-// Largest eigenvalue of M_e^-1 K_e. B annihilates translations, so that M_e^-1 acts as 3 / (density h T) (lumped) or
-// 12 / (density h T) (consistent), and the eigenvalues are those of the 3 x 3 product D B B^T.
+// Largest eigenvalue of M_e^-1 K_e. B annihilates translations, so that M_e^-1 acts as 3 / (density h T)
+// (lumped) or 12 / (density h T) (consistent), and the eigenvalues are those of the 3 x 3 product D B B^T.
 double element_eigenvalue(const Mesh& mesh, int e, const Material& material) {
   const auto q = corners(mesh, mesh.triangles[e]);
   const double area2 = 2.0 * signed_area(mesh, e);

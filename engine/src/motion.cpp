@@ -8,7 +8,8 @@ namespace {
 // Index of the last key with key.t <= t; -1 before the first.
 template <class Key>
 int key_before(const std::vector<Key>& keys, double t) {
-  const auto after = std::upper_bound(keys.begin(), keys.end(), t, [](double x, const Key& key) { return x < key.t; });
+  const auto after =
+      std::upper_bound(keys.begin(), keys.end(), t, [](double x, const Key& key) { return x < key.t; });
   return static_cast<int>(after - keys.begin()) - 1;
 }
 
@@ -37,7 +38,9 @@ Polynomial between(Profile profile, double t0, double t1, double q0, double q1, 
   return {t0, c};
 }
 
-Polynomial constant(double t0, double value) { return {t0, {value, 0, 0, 0, 0, 0}}; }
+Polynomial constant(double t0, double value) {
+  return {t0, {value, 0, 0, 0, 0, 0}};
+}
 
 }  // namespace
 
@@ -82,7 +85,8 @@ bool same_course(const Move& a, const Move& b) {
   const bool velocities = a.profile == Profile::hermite;
   return a.profile == b.profile && std::equal(a.keys.begin(), a.keys.end(), b.keys.begin(), b.keys.end(),
                                               [&](const MoveKey& p, const MoveKey& q) {
-                                                return p.t == q.t && p.u == q.u && (!velocities || p.v == q.v);
+                                                return p.t == q.t && p.u == q.u &&
+                                                       (!velocities || p.v == q.v);
                                               });
 }
 

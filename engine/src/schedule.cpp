@@ -11,8 +11,8 @@
 namespace rheo {
 namespace {
 
-constexpr std::size_t solvers_kept = 16;   // beyond it they are made again when their interval comes
-constexpr std::size_t spectra_taken = 8;   // beyond it the free body's frequency bounds all
+constexpr std::size_t solvers_kept = 16;  // beyond it they are made again when their interval comes
+constexpr std::size_t spectra_taken = 8;  // beyond it the free body's frequency bounds all
 
 }  // namespace
 
@@ -43,7 +43,8 @@ double Schedule::end(std::size_t i) const {
 }
 
 double Schedule::middle(std::size_t i) const {
-  return i + 1 < events_.size() ? 0.5 * (events_[i] + events_[i + 1]) : 2.0 * events_[i] + scene_.time.duration;
+  return i + 1 < events_.size() ? 0.5 * (events_[i] + events_[i + 1])
+                                : 2.0 * events_[i] + scene_.time.duration;
 }
 
 Schedule::Signature Schedule::signature(std::size_t i) const {
@@ -77,7 +78,8 @@ std::shared_ptr<const ConstraintSolver> Schedule::solver(const Signature& active
 }
 
 bool Schedule::has_columns() const {
-  return !scene_.constraints.empty() || (scene_.time.constraints == ConstraintMethod::baumgarte && !holders_.empty());
+  return !scene_.constraints.empty() ||
+         (scene_.time.constraints == ConstraintMethod::baumgarte && !holders_.empty());
 }
 
 void Schedule::make_spectrum(const std::vector<Signature>& signatures) {

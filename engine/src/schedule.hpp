@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "constraints.hpp"
 #include "body.hpp"
+#include "constraints.hpp"
 #include "rheo/stability.hpp"
 
 namespace rheo {

@@ -18,11 +18,11 @@
 namespace rheo {
 namespace {
 
-constexpr double auto_fraction = 0.25;      // of the stable limit
-constexpr double most_steps = 1e15;         // counted exactly by a double, and beyond any patience
+constexpr double auto_fraction = 0.25;  // of the stable limit
+constexpr double most_steps = 1e15;     // counted exactly by a double, and beyond any patience
 constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t unasked_stride = 16;  // steps between looks at the energy where nobody asks for it
-constexpr double violation_allowed = 0.01;  // of a constraint's coefficients times the largest |u|
+constexpr double violation_allowed = 0.01;   // of a constraint's coefficients times the largest |u|
 
 const Scene& validated(const Scene& scene) {
   validate(scene);
@@ -62,28 +62,34 @@ struct Simulation::Impl {
     const std::string name(integrator->name());
     if (settings.step > 0.0) {
       if (settings.step > limit * (1.0 + 1e-12) && !options.allow_unstable) {
-        throw Error(Error::Kind::input,
-                    limit > 0.0
-                        ? fmt::format("step = {:g} s is beyond the largest stable step of {}, {:.6g} s: take a smaller "
-                                      "one or \"auto\", or allow it (--allow-unstable)",
-                                      settings.step, name, limit)
-                        : fmt::format("no step of {} is stable here, some vibrations are not damped: use integrator = "
-                                      "\"rk4\", or allow step = {:g} s (--allow-unstable)",
-                                      name, settings.step));
+        throw Error(
+            Error::Kind::input,
+            limit > 0.0
+                ? fmt::format(
+                      "step = {:g} s is beyond the largest stable step of {}, {:.6g} s: take a smaller "
+                      "one or \"auto\", or allow it (--allow-unstable)",
+                      settings.step, name, limit)
+                : fmt::format(
+                      "no step of {} is stable here, some vibrations are not damped: use integrator = "
+                      "\"rk4\", or allow step = {:g} s (--allow-unstable)",
+                      name, settings.step));
       }
       bound = settings.step;
     } else {
       if (limit == 0.0) {
-        throw Error(Error::Kind::input, fmt::format("no step of {} is stable here, some vibrations are not damped: use "
-                                                    "integrator = \"rk4\"",
-                                                    name));
+        throw Error(Error::Kind::input,
+                    fmt::format("no step of {} is stable here, some vibrations are not damped: use "
+                                "integrator = \"rk4\"",
+                                name));
       }
       bound = auto_fraction * limit;
     }
     if (!(settings.duration / bound < most_steps)) {
-      throw Error(Error::Kind::input,
-                  fmt::format("step = {:g} s needs {:.2g} steps for the duration of {:g} s, at most {:g} can be counted",
-                              bound, settings.duration / bound, settings.duration, most_steps));
+      throw Error(
+          Error::Kind::input,
+          fmt::format(
+              "step = {:g} s needs {:.2g} steps for the duration of {:g} s, at most {:g} can be counted",
+              bound, settings.duration / bound, settings.duration, most_steps));
     }
   }
 
@@ -92,7 +98,8 @@ struct Simulation::Impl {
     const bool edges = scene.material.mass == Mass::lumped && !schedule.has_columns();
     if (options.kernel == Kernel::edge && !edges) {
       throw Error(Error::Kind::input,
-                  "kernel edge needs mass = \"lumped\" and constraints = \"auto\" without [[constraint]]: use auto or csr");
+                  "kernel edge needs mass = \"lumped\" and constraints = \"auto\" without [[constraint]]: "
+                  "use auto or csr");
     }
     if (edges && options.kernel != Kernel::csr) {
       return std::make_unique<EdgeBody>(scene.mesh, model, best_simd_level());
@@ -109,7 +116,8 @@ struct Simulation::Impl {
     return {y.data() + model.layout.v(), static_cast<Eigen::Index>(model.layout.part)};
   }
 
-  // Passes an event: new loads and constraints, and the velocity's jump where a constraint begins or its b' jumps.
+  // Passes an event: new loads and constraints, and the velocity's jump where a constraint begins or its b'
+  // jumps.
   void enter(std::size_t i) {
     const bool first = i == 0;
     Interval next = schedule.interval(i);
@@ -151,7 +159,8 @@ struct Simulation::Impl {
     }
     Vector target(static_cast<Eigen::Index>(columns)), impulse;
     for (std::size_t j = 0; j < columns; ++j) {
-      target[j] = body->column_value(solver.columns()[j], interval.begin, 1) - solver.row_times(j, v().data());
+      target[j] =
+          body->column_value(solver.columns()[j], interval.begin, 1) - solver.row_times(j, v().data());
       jump = jump || target[j] != 0.0;
     }
     if (!jump) return false;
@@ -169,7 +178,8 @@ struct Simulation::Impl {
     return interval.solver->row_times(column, u().data()) - body->column_value(c, time, 0);
   }
 
-  // How far each general constraint is from fulfilled where a set of them begins; from here it may only decay.
+  // How far each general constraint is from fulfilled where a set of them begins; from here it may only
+  // decay.
   void note_violations() {
     const std::size_t columns = interval.solver->columns().size();
     allowed_violation.assign(columns, 0.0);
@@ -296,13 +306,27 @@ Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
-const Scene& Simulation::scene() const { return impl_->scene; }
-const Spectrum& Simulation::spectrum() const { return impl_->spectrum; }
-double Simulation::stable_step() const { return impl_->limit; }
-double Simulation::step_bound() const { return impl_->bound; }
-double Simulation::time() const { return impl_->time; }
-std::optional<Divergence> Simulation::advance(double t) { return impl_->advance(t); }
-const Counters& Simulation::counters() const { return impl_->body->counters(); }
+const Scene& Simulation::scene() const {
+  return impl_->scene;
+}
+const Spectrum& Simulation::spectrum() const {
+  return impl_->spectrum;
+}
+double Simulation::stable_step() const {
+  return impl_->limit;
+}
+double Simulation::step_bound() const {
+  return impl_->bound;
+}
+double Simulation::time() const {
+  return impl_->time;
+}
+std::optional<Divergence> Simulation::advance(double t) {
+  return impl_->advance(t);
+}
+const Counters& Simulation::counters() const {
+  return impl_->body->counters();
+}
 
 std::int64_t Simulation::planned_steps() const {
   const TimeSettings& settings = impl_->scene.time;
@@ -350,7 +374,9 @@ Energies Simulation::energies() const {
   return {now.kinetic, now.stored, impl_->book.dissipated(), impl_->book.work()};
 }
 
-std::string_view Simulation::kernel() const { return impl_->body->kernel(); }
+std::string_view Simulation::kernel() const {
+  return impl_->body->kernel();
+}
 
 std::span<const double> Simulation::reaction() {
   impl_->know_reaction();

@@ -37,7 +37,8 @@ double rk4_radius(std::complex<double> d) {
   return inside;
 }
 
-// Roots of s (s + p) (s + q) + W2 [a (s + q) + (1 - a) (s + p)] = 0: the modes with Rayleigh quotients a W2, (1 - a) W2.
+// Roots of s (s + p) (s + q) + W2 [a (s + q) + (1 - a) (s + p)] = 0: the modes with Rayleigh quotients a W2,
+// (1 - a) W2.
 Eigen::Vector3cd mode_roots(double w2, double a, double p, double q) {
   const double c2 = p + q;
   const double c1 = p * q + w2;
@@ -75,8 +76,9 @@ double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
   if (spectrum.omega_max > 0.0) {
     const double fastest = std::max({p, q, spectrum.omega_max});
     const double damping = std::max(p, q);
-    // Shares of lambda from none to the largest possible; magnitudes from the largest down. Below a small part of the
-    // fastest rate no root can be the one that limits RK4; Euler's limit 2 |Re s| / |s|^2 only grows downwards.
+    // Shares of lambda from none to the largest possible; magnitudes from the largest down. Below a small
+    // part of the fastest rate no root can be the one that limits RK4; Euler's limit 2 |Re s| / |s|^2 only
+    // grows downwards.
     constexpr int shares = 16;
     constexpr int magnitudes = 48;
     const double lowest_share = spectrum.mu_on ? 0.0 : 1.0;
@@ -87,7 +89,8 @@ double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
         const double omega = spectrum.omega_max * std::exp2(-k / 8.0);
         if (k > 0 && omega < 0.02 * fastest) break;
         if (damping < 1e-8 * omega) {
-          // Roots -(a p + (1 - a) q) / 2 +- i omega to first order: a general solver would lose the real part.
+          // Roots -(a p + (1 - a) q) / 2 +- i omega to first order: a general solver would lose the real
+          // part.
           include({-0.5 * (a * p + (1.0 - a) * q), omega});
           continue;
         }

@@ -1,7 +1,7 @@
 // When a scene changes: starts, ends and keys of loads and constraints, and its outputs.
 //
-// Between two neighbouring times every load and prescribed motion is one polynomial and the set of constraints stays:
-// steps end on these times, so that none straddles a jump.
+// Between two neighbouring times every load and prescribed motion is one polynomial and the set of
+// constraints stays: steps end on these times, so that none straddles a jump.
 #pragma once
 
 #include <vector>
@@ -16,6 +16,8 @@ std::vector<double> event_times(const Scene& scene);
 // Whether two times are the same but for rounding.
 bool same_time(double a, double b);
 
-inline bool is_active(const Window& window, double t) { return window.from <= t && t < window.until; }
+inline bool is_active(const Window& window, double t) {
+  return window.from <= t && t < window.until;
+}
 
 }  // namespace rheo

@@ -19,7 +19,8 @@ double norm(std::span<const double> w) {
 class Beam : public testing::TestWithParam<Mass> {};
 
 double tip(Simulation& simulation) {
-  return simulation.read({"tip", nodes_of(simulation.scene().mesh.edge_groups.at("right")), {}, ""}).displacement.x;
+  return simulation.read({"tip", nodes_of(simulation.scene().mesh.edge_groups.at("right")), {}, ""})
+      .displacement.x;
 }
 
 TEST_P(Beam, ExtendsForTheFirstSecondThenShrinks) {
@@ -45,7 +46,7 @@ TEST_P(Beam, KeepsAResidualDeformation) {
   ASSERT_FALSE(simulation.advance(5.0));
   const double at5 = tip(simulation);
   ASSERT_FALSE(simulation.advance(20.0));
-  EXPECT_GT(tip(simulation), 1.0);              // longer than at rest by more than its own length
+  EXPECT_GT(tip(simulation), 1.0);                // longer than at rest by more than its own length
   EXPECT_NEAR(tip(simulation), at5, 0.05 * at5);  // and stays so
 }
 
@@ -66,7 +67,8 @@ TEST_P(Beam, BendsBecauseItsTrianglesAreArrangedUnevenly) {
   Simulation simulation(paper_beam(GetParam()));
   ASSERT_FALSE(simulation.advance(1.0));
   double asymmetry = 0.0;
-  for (int i = 0; i < 5; ++i) asymmetry += std::abs(simulation.u()[2 * i + 1] + simulation.u()[2 * (i + 5) + 1]);
+  for (int i = 0; i < 5; ++i)
+    asymmetry += std::abs(simulation.u()[2 * i + 1] + simulation.u()[2 * (i + 5) + 1]);
   EXPECT_GT(asymmetry, 0.5);
 }
 

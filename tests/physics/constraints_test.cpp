@@ -24,7 +24,8 @@ std::string refusal(const Scene& scene) {
 
 Scene tied_beam(Mass mass) {
   Scene scene = paper_beam(mass);
-  scene.constraints.push_back({{{9, Axis::x, 1.0}, {4, Axis::x, -1.0}}, 0.0, "scene.toml:40: [[constraint]]"});
+  scene.constraints.push_back(
+      {{{9, Axis::x, 1.0}, {4, Axis::x, -1.0}}, 0.0, "scene.toml:40: [[constraint]]"});
   return scene;
 }
 
@@ -46,7 +47,8 @@ TEST(Baumgarte, DriftStaysAtRoundingFromAFulfilledStart) {
 }
 
 TEST(Baumgarte, ViolationDecaysCritically) {
-  // c'' = -2 omega c' - omega^2 c from c = c0, c' = 0: c0 (1 + omega t) exp(-omega t), whatever the body does.
+  // c'' = -2 omega c' - omega^2 c from c = c0, c' = 0: c0 (1 + omega t) exp(-omega t), whatever the body
+  // does.
   Scene scene = tied_beam(Mass::lumped);
   scene.constraints[0].value = 0.1;
   scene.time.step = 1e-4;
@@ -90,7 +92,8 @@ TEST(Branches, OfAZeroModulusAreNotThere) {
 }
 
 TEST(Multiplier, IsTheForceThatTiesTheNodes) {
-  // Pull one of the tied corners only: the tie carries to the other what the balance of forces at that node says.
+  // Pull one of the tied corners only: the tie carries to the other what the balance of forces at that node
+  // says.
   Scene scene = tied_beam(Mass::lumped);
   Simulation simulation(scene);
   ASSERT_FALSE(simulation.advance(0.7));
@@ -129,8 +132,12 @@ TEST(Impulse, CatchingAMovingEdgeTakesItsEnergyAsWork) {
 TEST(Move, FollowsItsKeysExactlyAndLetsGo) {
   Scene scene = paper_beam(Mass::consistent);
   scene.tractions.clear();
-  scene.moves.push_back({nodes_of(scene.mesh.edge_groups.at("right")), Axis::x, {0.5, 2.0},
-                         {{0.0, {0, 0}, {}}, {1.0, {0.2, 9}, {}}}, Profile::smooth, "grip"});
+  scene.moves.push_back({nodes_of(scene.mesh.edge_groups.at("right")),
+                         Axis::x,
+                         {0.5, 2.0},
+                         {{0.0, {0, 0}, {}}, {1.0, {0.2, 9}, {}}},
+                         Profile::smooth,
+                         "grip"});
   Simulation simulation(scene);
   ASSERT_FALSE(simulation.advance(0.75));
   const auto smooth = [](double s) { return 0.2 * s * s * s * (10 - 15 * s + 6 * s * s); };
@@ -147,7 +154,11 @@ TEST(Move, FollowsItsKeysExactlyAndLetsGo) {
 
 TEST(Refused, NodeHeldInTwoWaysAtOnce) {
   Scene scene = paper_beam(Mass::lumped);
-  scene.moves.push_back({{5}, Axis::y, {0.5, 1.0}, {{0, {0, 0}, {}}, {1, {0, 1}, {}}}, Profile::smooth,
+  scene.moves.push_back({{5},
+                         Axis::y,
+                         {0.5, 1.0},
+                         {{0, {0, 0}, {}}, {1, {0, 1}, {}}},
+                         Profile::smooth,
                          "scene.toml:30: [[move]]"});
   const std::string text = refusal(scene);
   EXPECT_NE(text.find("scene.toml:30: [[move]]: node 5 is held in y by left"), std::string::npos) << text;
@@ -168,9 +179,11 @@ TEST(Refused, ButOverlapsThatAgreeAreFine) {
 TEST(Refused, DependentConstraints) {
   for (Mass mass : {Mass::lumped, Mass::consistent}) {
     Scene scene = tied_beam(mass);
-    scene.constraints.push_back({{{9, Axis::x, -2.0}, {4, Axis::x, 2.0}}, 0.0, "scene.toml:44: [[constraint]]"});
+    scene.constraints.push_back(
+        {{{9, Axis::x, -2.0}, {4, Axis::x, 2.0}}, 0.0, "scene.toml:44: [[constraint]]"});
     std::string text = refusal(scene);
-    EXPECT_NE(text.find("[[constraint]]: this constraint follows from the others"), std::string::npos) << text;
+    EXPECT_NE(text.find("[[constraint]]: this constraint follows from the others"), std::string::npos)
+        << text;
     scene.constraints[1].value = 0.5;
     text = refusal(scene);
     EXPECT_NE(text.find("contradicts the others"), std::string::npos) << text;
@@ -185,7 +198,8 @@ TEST(Refused, DependentConstraints) {
 
 TEST(Refused, ConstraintOnHeldNodesOnly) {
   Scene scene = paper_beam(Mass::lumped);
-  scene.constraints.push_back({{{0, Axis::x, 1.0}, {5, Axis::x, -1.0}}, 0.0, "scene.toml:40: [[constraint]]"});
+  scene.constraints.push_back(
+      {{{0, Axis::x, 1.0}, {5, Axis::x, -1.0}}, 0.0, "scene.toml:40: [[constraint]]"});
   EXPECT_NE(refusal(scene).find("all its nodes are held"), std::string::npos) << refusal(scene);
 }
 

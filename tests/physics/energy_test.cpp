@@ -10,7 +10,9 @@
 namespace rheo::test {
 namespace {
 
-double balance(const Energies& e) { return e.kinetic + e.stored + e.dissipated - e.work; }
+double balance(const Energies& e) {
+  return e.kinetic + e.stored + e.dissipated - e.work;
+}
 
 Scene short_beam(Mass mass) {
   Scene scene = paper_beam(mass);
@@ -26,8 +28,12 @@ Scene short_beam(Mass mass) {
 
 Scene moving_beam(Mass mass, Profile profile) {
   Scene scene = short_beam(mass);
-  scene.moves.push_back({nodes_of(scene.mesh.edge_groups.at("right")), Axis::both, {0.1, 0.8},
-                         {{0.0, {0, 0}, {0, 0}}, {0.4321, {0.2, 0.1}, {0.3, 0}}, {0.7, {0.1, 0}, {0, 0}}}, profile, "grip"});
+  scene.moves.push_back({nodes_of(scene.mesh.edge_groups.at("right")),
+                         Axis::both,
+                         {0.1, 0.8},
+                         {{0.0, {0, 0}, {0, 0}}, {0.4321, {0.2, 0.1}, {0.3, 0}}, {0.7, {0.1, 0}, {0, 0}}},
+                         profile,
+                         "grip"});
   return scene;
 }
 
@@ -47,7 +53,8 @@ double imbalance(Scene scene, double step) {
 // Over two halvings, from steps so small that the leading term rules to steps where rounding does not yet.
 void expect_order(const Scene& scene, double first_step, double order) {
   std::vector<double> drifts;
-  for (int halving = 0; halving <= 2; ++halving) drifts.push_back(imbalance(scene, first_step / std::exp2(halving)));
+  for (int halving = 0; halving <= 2; ++halving)
+    drifts.push_back(imbalance(scene, first_step / std::exp2(halving)));
   std::string all;
   for (double d : drifts) all += std::to_string(std::log10(d)) + " ";
   EXPECT_NEAR(std::log2(drifts.front() / drifts.back()) / 2, order, 0.1) << "log10 of the drifts: " << all;
@@ -97,7 +104,8 @@ TEST(Energy, ElasticBodyConserves) {
   const Energies later = simulation.energies();
   EXPECT_EQ(later.dissipated, 0.0);
   EXPECT_EQ(later.work, released.work);
-  // RK4 takes (omega h)^6 / 72 of a mode's energy a step; the beam's modes up to 220 rad/s, mostly the low ones.
+  // RK4 takes (omega h)^6 / 72 of a mode's energy a step; the beam's modes up to 220 rad/s, mostly the low
+  // ones.
   EXPECT_NEAR((later.kinetic + later.stored) / (released.kinetic + released.stored), 1.0, 1e-3);
   EXPECT_GT(later.kinetic + later.stored, 0.1 * released.work);
 }

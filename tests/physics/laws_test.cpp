@@ -1,5 +1,5 @@
-// Laws that hold whatever the numbers: patch test, rigid motion, momentum, closed forms of relaxation and creep, convergence
-// in space, reactions.
+// Laws that hold whatever the numbers: patch test, rigid motion, momentum, closed forms of relaxation and
+// creep, convergence in space, reactions.
 
 #include <gtest/gtest.h>
 
@@ -59,7 +59,12 @@ TEST(ConnectionMatrices, RigidMotionGivesNoForce) {
     Vector w(2 * mesh.node_count());
     for (int i = 0; i < mesh.node_count(); ++i) {
       const Vec2& p = mesh.points[i];
-      w.segment<2>(2 * i) << (kind == 0 ? 1.0 : kind == 1 ? 0.0 : -p.y), (kind == 0 ? 0.0 : kind == 1 ? 1.0 : p.x);
+      w.segment<2>(2 * i) << (kind == 0   ? 1.0
+                              : kind == 1 ? 0.0
+                                          : -p.y),
+          (kind == 0   ? 0.0
+           : kind == 1 ? 1.0
+                       : p.x);
     }
     EXPECT_LT((model.j_lambda * w).norm(), 1e-14 * model.j_lambda.norm() * w.norm());
     EXPECT_LT((model.j_mu * w).norm(), 1e-14 * model.j_mu.norm() * w.norm());
@@ -78,17 +83,19 @@ TEST(ConnectionMatrices, ScaleWithThicknessAndNotWithSize) {
   EXPECT_LT((0.5 * a.j_lambda - b.j_lambda).norm(), 1e-13 * b.j_lambda.norm());
 }
 
-// The patch test: a linear displacement prescribed on the boundary of an irregular patch is taken up by all of it, with one
-// stress everywhere.
+// The patch test: a linear displacement prescribed on the boundary of an irregular patch is taken up by all
+// of it, with one stress everywhere.
 TEST(PatchTest, LinearDisplacementGivesOneStress) {
   Scene scene;
   scene.mesh = jittered({2.0, 1.5}, 6, 5, 4);
-  scene.material = {7, 5, 4e9, 2e9, 0.2, Mass::consistent};  // relaxation times of 1e9 s: elastic over this run
+  scene.material = {7,   5,   4e9,
+                    2e9, 0.2, Mass::consistent};  // relaxation times of 1e9 s: elastic over this run
   const double duration = 200.0;
   for (int node : nodes_of(scene.mesh.edge_groups.at("boundary"))) {
     const Vec2 p = scene.mesh.points[node];
     const Vec2 u{0.01 * p.x + 0.02 * p.y, -0.005 * p.x + 0.015 * p.y};
-    scene.moves.push_back({{node}, Axis::both, {}, {{0, {0, 0}, {}}, {duration, u, {}}}, Profile::smooth, ""});
+    scene.moves.push_back(
+        {{node}, Axis::both, {}, {{0, {0, 0}, {}}, {duration, u, {}}}, Profile::smooth, ""});
   }
   scene.time.duration = duration;
   scene.time.frame_rate = 1.0;
@@ -137,7 +144,8 @@ TEST(FreeBody, MomentumFollowsTheForceAndTheCentreFalls) {
   }
 }
 
-// A block held by rollers on two sides and pulled in x: homogeneous strain, so the paper's law in closed form.
+// A block held by rollers on two sides and pulled in x: homogeneous strain, so the paper's law in closed
+// form.
 Scene uniaxial(double lambda_vis, double mu_vis) {
   Scene scene;
   scene.mesh = jittered({1.0, 1.0}, 3, 3, 5);
@@ -150,12 +158,16 @@ Scene uniaxial(double lambda_vis, double mu_vis) {
 }
 
 TEST(Relaxation, ConfinedForceIsTheHereditaryIntegral) {
-  // Stretched (laterally confined) by a hermite ramp of constant rate r over T, then held: with e' = r on [0, T],
-  // sigma_xx(t) = sum over lambda, 2 mu of r vis exp(-(t - T) ela / vis) (1 - exp(-T ela / vis)).
+  // Stretched (laterally confined) by a hermite ramp of constant rate r over T, then held: with e' = r on [0,
+  // T], sigma_xx(t) = sum over lambda, 2 mu of r vis exp(-(t - T) ela / vis) (1 - exp(-T ela / vis)).
   Scene scene = uniaxial(4.0, 2.0);
   const double rate = 0.05, ramp = 1.0;
-  scene.moves.push_back({nodes_of(scene.mesh.edge_groups.at("right")), Axis::x, {},
-                         {{0, {0, 0}, {}}, {ramp, {rate * ramp, 0}, {}}}, Profile::linear, "grip"});
+  scene.moves.push_back({nodes_of(scene.mesh.edge_groups.at("right")),
+                         Axis::x,
+                         {},
+                         {{0, {0, 0}, {}}, {ramp, {rate * ramp, 0}, {}}},
+                         Profile::linear,
+                         "grip"});
   scene.time.duration = 3.0;
   Simulation simulation(scene);
   const auto law = [&](double t, double ela, double vis) {
@@ -164,11 +176,13 @@ TEST(Relaxation, ConfinedForceIsTheHereditaryIntegral) {
   for (double t : {1.5, 2.0, 3.0}) {
     ASSERT_FALSE(simulation.advance(t));
     const double expected = law(t, 7.0, 4.0) + 2 * law(t, 5.0, 2.0);
-    // The jump of velocity leaves waves that the material damps with rate ~2/s: e^-2t of a small amplitude (they carry the
-    // stress rho c v ~ 7e-3 of 0.26), so only their mean is compared, over a period far below t.
+    // The jump of velocity leaves waves that the material damps with rate ~2/s: e^-2t of a small amplitude
+    // (they carry the stress rho c v ~ 7e-3 of 0.26), so only their mean is compared, over a period far below
+    // t.
     double mean = 0.0;
     const int samples = 400;
-    const double period = 4.0 / std::sqrt(17.0 / 1e-3);  // quarter-wave of a bar of 1 m held at one end, both pressed
+    const double period =
+        4.0 / std::sqrt(17.0 / 1e-3);  // quarter-wave of a bar of 1 m held at one end, both pressed
     for (int k = 0; k < samples; ++k) {
       ASSERT_FALSE(simulation.advance(t + period * (k + 1) / samples));
       mean += simulation.read(scene.probes[0]).force.x / samples;
@@ -178,10 +192,15 @@ TEST(Relaxation, ConfinedForceIsTheHereditaryIntegral) {
 }
 
 TEST(Relaxation, StressAfterASlowStretchIsExact) {
-  // Without inertia's waves: smooth stretch, then e^{-t ela/vis} for both parts. Ratios over time need no history.
+  // Without inertia's waves: smooth stretch, then e^{-t ela/vis} for both parts. Ratios over time need no
+  // history.
   Scene scene = uniaxial(70.0, forever);  // lambda relaxes in 10 s, mu never
-  scene.moves.push_back({nodes_of(scene.mesh.edge_groups.at("right")), Axis::x, {},
-                         {{0, {0, 0}, {}}, {2.0, {0.1, 0}, {}}}, Profile::smooth, "grip"});
+  scene.moves.push_back({nodes_of(scene.mesh.edge_groups.at("right")),
+                         Axis::x,
+                         {},
+                         {{0, {0, 0}, {}}, {2.0, {0.1, 0}, {}}},
+                         Profile::smooth,
+                         "grip"});
   scene.material.density = 1e-4;
   scene.time.duration = 12.0;
   Simulation simulation(scene);
@@ -194,12 +213,13 @@ TEST(Relaxation, StressAfterASlowStretchIsExact) {
 }
 
 TEST(Creep, ConfinedStrainUnderConstantLoadIsAMaxwellBody) {
-  // With lambda / lambda_vis = mu / mu_vis the confined block is one Maxwell element of modulus lambda + 2 mu: under a
-  // constant stress s its strain is s / E (1 + t / tau), once vibrations are gone.
+  // With lambda / lambda_vis = mu / mu_vis the confined block is one Maxwell element of modulus lambda + 2
+  // mu: under a constant stress s its strain is s / E (1 + t / tau), once vibrations are gone.
   const double tau = 0.5;  // vibrations decay as exp(-t / (2 tau))
   Scene scene = uniaxial(7.0 * tau, 5.0 * tau);
   scene.material.density = 1e-3;
-  scene.tractions.push_back({scene.mesh.edge_groups.at("right"), {{0.0, {0, 0}}, {3.0, {0.34, 0}}}, {}, "pull"});
+  scene.tractions.push_back(
+      {scene.mesh.edge_groups.at("right"), {{0.0, {0, 0}}, {3.0, {0.34, 0}}}, {}, "pull"});
   scene.time.duration = 20.0;
   Simulation simulation(scene);
   ASSERT_FALSE(simulation.advance(16.0));
@@ -212,7 +232,8 @@ TEST(Creep, ConfinedStrainUnderConstantLoadIsAMaxwellBody) {
   EXPECT_NEAR(b, 0.34 / 17.0 * (1 + (20.0 - 1.5) / tau), 1e-5 * b);
 }
 
-// A confined elastic bar, its left end moved by a cubic pulse: the wave u(x, t) = g(t - x / c) until it meets the other end.
+// A confined elastic bar, its left end moved by a cubic pulse: the wave u(x, t) = g(t - x / c) until it meets
+// the other end.
 TEST(Bar, ConvergesWithOrderTwoInSpace) {
   const double length = 4.0, density = 17.0;  // lambda + 2 mu = 17 Pa: c = 1 m/s
   const double rise = 2.0;
@@ -230,8 +251,12 @@ TEST(Bar, ConvergesWithOrderTwoInSpace) {
       std::vector<int> all(scene.mesh.points.size());
       std::iota(all.begin(), all.end(), 0);
       scene.fixes.push_back({all, Axis::y, {}, "confined"});
-      scene.moves.push_back({nodes_of(scene.mesh.edge_groups.at("left")), Axis::x, {},
-                             {{0, {0, 0}, {}}, {rise, {0.01, 0}, {}}}, Profile::smooth, "pulse"});
+      scene.moves.push_back({nodes_of(scene.mesh.edge_groups.at("left")),
+                             Axis::x,
+                             {},
+                             {{0, {0, 0}, {}}, {rise, {0.01, 0}, {}}},
+                             Profile::smooth,
+                             "pulse"});
       scene.time.duration = 3.0;
       Simulation simulation(scene);
       EXPECT_FALSE(simulation.advance(3.0));

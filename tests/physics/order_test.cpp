@@ -1,5 +1,5 @@
-// Convergence order of the integrators on whole scenes against the exact solution: both masses, every kind of constraint,
-// events off the step grid.
+// Convergence order of the integrators on whole scenes against the exact solution: both masses, every kind of
+// constraint, events off the step grid.
 
 #include <gtest/gtest.h>
 
@@ -19,8 +19,8 @@ struct OrderCase {
   friend void PrintTo(const OrderCase& c, std::ostream* out) { *out << c.name; }
 };
 
-// A short beam of large triangles (so that many steps are quick), with a pull that begins and ends at times no output or
-// round step meets.
+// A short beam of large triangles (so that many steps are quick), with a pull that begins and ends at times
+// no output or round step meets.
 Scene off_grid_beam(Mass mass) {
   Scene scene = paper_beam(mass);
   scene.mesh = rectangle({2.0, 1.0}, 3, 2);
@@ -31,7 +31,9 @@ Scene off_grid_beam(Mass mass) {
   return scene;
 }
 
-std::vector<int> right_nodes(const Scene& scene) { return nodes_of(scene.mesh.edge_groups.at("right")); }
+std::vector<int> right_nodes(const Scene& scene) {
+  return nodes_of(scene.mesh.edge_groups.at("right"));
+}
 
 Scene ramped(Mass mass) {
   Scene scene = off_grid_beam(mass);
@@ -42,9 +44,13 @@ Scene ramped(Mass mass) {
 Scene moved(Mass mass, Profile profile) {
   Scene scene = off_grid_beam(mass);
   scene.tractions.clear();
-  scene.moves.push_back({right_nodes(scene), Axis::both, {0.05, 0.6180339},
-                         {{0.0, {0, 0}, {0, 0}}, {0.3217, {0.1, 0.02}, {0.3, -0.1}}, {0.55, {0.05, 0}, {0, 0}}}, profile,
-                         "grip"});
+  scene.moves.push_back(
+      {right_nodes(scene),
+       Axis::both,
+       {0.05, 0.6180339},
+       {{0.0, {0, 0}, {0, 0}}, {0.3217, {0.1, 0.02}, {0.3, -0.1}}, {0.55, {0.05, 0}, {0, 0}}},
+       profile,
+       "grip"});
   return scene;
 }
 
@@ -126,12 +132,18 @@ double measured_order(const Scene& scene, IntegratorKind kind, double first_step
   return slope(errors);
 }
 
-// Steps from far enough below the stable limit that the leading term rules, to where rounding is still far below it.
-TEST_P(Order, Rk4IsFour) { EXPECT_NEAR(measured_order(GetParam().scene(), IntegratorKind::rk4, 4e-3), 4.0, 0.1); }
+// Steps from far enough below the stable limit that the leading term rules, to where rounding is still far
+// below it.
+TEST_P(Order, Rk4IsFour) {
+  EXPECT_NEAR(measured_order(GetParam().scene(), IntegratorKind::rk4, 4e-3), 4.0, 0.1);
+}
 
-TEST_P(Order, EulerIsOne) { EXPECT_NEAR(measured_order(GetParam().scene(), IntegratorKind::euler, 2e-4), 1.0, 0.1); }
+TEST_P(Order, EulerIsOne) {
+  EXPECT_NEAR(measured_order(GetParam().scene(), IntegratorKind::euler, 2e-4), 1.0, 0.1);
+}
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Order, testing::ValuesIn(cases()), [](const auto& c) { return c.param.name; });
+INSTANTIATE_TEST_SUITE_P(Scenes, Order, testing::ValuesIn(cases()),
+                         [](const auto& c) { return c.param.name; });
 
 }  // namespace
 }  // namespace rheo::test

@@ -53,7 +53,8 @@ double beam_error(Mass mass, double step) {
 TEST(Reference, ExactSolutionOfTheTestsAgrees) {
   // Two matrix exponentials of the same 80 x 80 problem over 5 s: rounding only.
   EXPECT_LT(run_error(reference(Mass::lumped), ExactSolution(paper_beam(Mass::lumped)).at(times)), 1e-11);
-  EXPECT_LT(run_error(reference(Mass::consistent), ExactSolution(paper_beam(Mass::consistent)).at(times)), 1e-11);
+  EXPECT_LT(run_error(reference(Mass::consistent), ExactSolution(paper_beam(Mass::consistent)).at(times)),
+            1e-11);
 }
 
 TEST(Reference, LumpedBeamWithinTwoInABillion) {
@@ -62,7 +63,9 @@ TEST(Reference, LumpedBeamWithinTwoInABillion) {
   EXPECT_LE(error, 2e-9);
 }
 
-TEST(Reference, ConsistentBeamWithinEightInAHundredMillion) { EXPECT_LE(beam_error(Mass::consistent, 1e-4), 8e-8); }
+TEST(Reference, ConsistentBeamWithinEightInAHundredMillion) {
+  EXPECT_LE(beam_error(Mass::consistent, 1e-4), 8e-8);
+}
 
 TEST(Reference, ErrorFallsSixteenfoldAStepHalved) {
   const double coarse = beam_error(Mass::lumped, 4e-4);

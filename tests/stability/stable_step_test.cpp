@@ -17,7 +17,8 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-// Largest step that keeps every eigenvalue of the operator of a scene (constraints as they are at t = 0) stable.
+// Largest step that keeps every eigenvalue of the operator of a scene (constraints as they are at t = 0)
+// stable.
 double true_limit(const Scene& scene, IntegratorKind integrator) {
   const DenseMatrices matrices = dense_matrices(scene.mesh, scene.material);
   const Eigen::Index d = matrices.mass.rows();
@@ -46,14 +47,16 @@ double true_limit(const Scene& scene, IntegratorKind integrator) {
   const Eigen::MatrixXd full = full_operator(matrices, scene.material, a, 0.0);
   // u feeds on v but nothing on u: leave it out, with it the Jordan blocks at 0.
   Eigen::MatrixXd op = full.bottomRightCorner(3 * d, 3 * d);
-  // Residual forces in units that give both off-diagonal blocks one size: the eigenvalues stay, their rounding shrinks.
+  // Residual forces in units that give both off-diagonal blocks one size: the eigenvalues stay, their
+  // rounding shrinks.
   const double unit = std::sqrt(op.bottomLeftCorner(2 * d, d).norm() / op.topRightCorner(d, 2 * d).norm());
   op.topRightCorner(d, 2 * d) *= unit;
   op.bottomLeftCorner(2 * d, d) /= unit;
   const auto s = Eigen::EigenSolver<Eigen::MatrixXd>(op, false).eigenvalues();
   const double largest = s.cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i < s.size(); ++i) {
-    // Rigid motion and held parts: zeros in Jordan blocks, which rounding moves by its square root. None so small limits.
+    // Rigid motion and held parts: zeros in Jordan blocks, which rounding moves by its square root. None so
+    // small limits.
     if (std::abs(s[i]) < 1e-6 * largest) continue;
     const double re = std::abs(s[i].real()) < 1e-10 * largest ? 0.0 : s[i].real();
     limit = std::min(limit, stable_step_of({std::min(re, 0.0), s[i].imag()}, integrator));
@@ -72,7 +75,8 @@ double predicted(const Scene& scene, IntegratorKind integrator) {
 }
 
 TEST(StableStep, IsExactForKnownEigenvalues) {
-  // On the negative real axis RK4 ends at 2.785293563405282, on the imaginary one at sqrt(8), Euler at 2 and 0.
+  // On the negative real axis RK4 ends at 2.785293563405282, on the imaginary one at sqrt(8), Euler at 2 and
+  // 0.
   EXPECT_NEAR(stable_step_of({-1.0, 0.0}, IntegratorKind::rk4), 2.785293563405282, 1e-9);
   EXPECT_NEAR(stable_step_of({0.0, 4.0}, IntegratorKind::rk4), std::sqrt(8.0) / 4, 1e-12);
   EXPECT_DOUBLE_EQ(stable_step_of({-4.0, 0.0}, IntegratorKind::euler), 0.5);
@@ -103,7 +107,8 @@ Scene random_scene(std::mt19937& random, const Family& family) {
   const double size = decades(1e-4, 1e4);
   const int nx = 2 + static_cast<int>(unit(random) * 4);
   const int ny = 2 + static_cast<int>(unit(random) * 2);
-  scene.mesh = rectangle({size, size * decades(0.2, 2)}, nx, ny, unit(random) < 0.5 ? Diagonal::rising : Diagonal::alternating);
+  scene.mesh = rectangle({size, size * decades(0.2, 2)}, nx, ny,
+                         unit(random) < 0.5 ? Diagonal::rising : Diagonal::alternating);
   scene.mesh.thickness = decades(1e-3, 10);
   const double jitter = 0.25 * unit(random) * size / nx;
   for (Vec2& p : scene.mesh.points) {
@@ -120,8 +125,10 @@ Scene random_scene(std::mt19937& random, const Family& family) {
   if (m.lambda_ela > 0) m.lambda_vis = m.lambda_ela * family.lambda_relaxation / frequency;
   m.mu_vis = m.mu_ela * family.mu_relaxation / frequency;
   const double choice = unit(random);
-  if (choice < 0.6) scene.fixes.push_back({nodes_of(scene.mesh.edge_groups.at("left")), Axis::both, {}, "left"});
-  if (choice < 0.3) scene.fixes.push_back({nodes_of(scene.mesh.edge_groups.at("bottom")), Axis::y, {}, "bottom"});
+  if (choice < 0.6)
+    scene.fixes.push_back({nodes_of(scene.mesh.edge_groups.at("left")), Axis::both, {}, "left"});
+  if (choice < 0.3)
+    scene.fixes.push_back({nodes_of(scene.mesh.edge_groups.at("bottom")), Axis::y, {}, "bottom"});
   if (unit(random) < 0.3) {
     scene.constraints.push_back({{{nx - 1, Axis::x, 1.0}, {nx * ny - 1, Axis::x, -1.0}}, 0.0, "tie"});
     scene.time.baumgarte = frequency * decades(0.1, 100);
@@ -139,7 +146,8 @@ TEST_P(Prediction, IsNeverAboveTheTruthAndNear) {
     for (IntegratorKind integrator : {IntegratorKind::rk4, IntegratorKind::euler}) {
       const double truth = true_limit(scene, integrator);
       const double bound = predicted(scene, integrator);
-      const std::string what = "scene " + std::to_string(k) + (integrator == IntegratorKind::rk4 ? " rk4" : " euler");
+      const std::string what =
+          "scene " + std::to_string(k) + (integrator == IntegratorKind::rk4 ? " rk4" : " euler");
       EXPECT_LE(bound, truth * (1 + 1e-6)) << what;
       if (integrator == IntegratorKind::rk4) {
         EXPECT_GE(bound, 0.95 * truth) << what;
@@ -176,7 +184,8 @@ TEST(StableStep, BeyondTheLimitIsRefusedByName) {
     FAIL() << "accepted";
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), Error::Kind::input);
-    EXPECT_NE(std::string(e.what()).find("step = 0.1 s is beyond the largest stable step of rk4"), std::string::npos)
+    EXPECT_NE(std::string(e.what()).find("step = 0.1 s is beyond the largest stable step of rk4"),
+              std::string::npos)
         << e.what();
   }
   EXPECT_NO_THROW(Simulation(scene, {.allow_unstable = true}));

@@ -14,7 +14,9 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-bool active(const Window& w, double t) { return w.from <= t && t < w.until; }
+bool active(const Window& w, double t) {
+  return w.from <= t && t < w.until;
+}
 
 // Derivatives 0..5 of a move's key course at t, on the piece that contains `inside`.
 std::array<double, 6> course(const Move& move, int axis, double t, double inside) {
@@ -101,14 +103,16 @@ DenseMatrices dense_matrices(const Mesh& mesh, const Material& material) {
         m.j_mu.block<2, 2>(2 * t[i], 2 * t[j]) += jm.block<2, 2>(2 * i, 2 * j);
         double share = i == j ? 1.0 / 6 : 1.0 / 12;
         if (material.mass == Mass::lumped) share = i == j ? 1.0 / 3 : 0.0;
-        m.mass.block<2, 2>(2 * t[i], 2 * t[j]) += material.density * volume * share * Eigen::Matrix2d::Identity();
+        m.mass.block<2, 2>(2 * t[i], 2 * t[j]) +=
+            material.density * volume * share * Eigen::Matrix2d::Identity();
       }
     }
   }
   return m;
 }
 
-MatrixXd full_operator(const DenseMatrices& m, const Material& material, const MatrixXd& constraints, double omega) {
+MatrixXd full_operator(const DenseMatrices& m, const Material& material, const MatrixXd& constraints,
+                       double omega) {
   const Eigen::Index d = m.mass.rows();
   const Eigen::Index c = constraints.cols();
   // v' and the multipliers from [M -A; -A^T 0] (v', L) = (-J w, A^T (2 omega v + omega^2 u)).
@@ -202,7 +206,8 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
     const std::size_t held = rows.size();
     for (const Constraint& c : s.constraints) {
       VectorXd a = VectorXd::Zero(d);
-      for (const ConstraintTerm& term : c.terms) a[2 * term.node + (term.axis == Axis::y)] += term.coefficient;
+      for (const ConstraintTerm& term : c.terms)
+        a[2 * term.node + (term.axis == Axis::y)] += term.coefficient;
       rows.push_back({a, {c.value, 0, 0, 0, 0, 0}});
     }
     const auto count = static_cast<Eigen::Index>(rows.size());
@@ -213,7 +218,8 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
       VectorXd slope(count);
       for (Eigen::Index k = 0; k < count; ++k) slope[k] = rows[k].b[1];
       const MatrixXd y_a = matrices_.mass.ldlt().solve(a);
-      y.segment(d, d) += y_a * (a.transpose() * y_a).fullPivLu().solve(slope - a.transpose() * y.segment(d, d));
+      y.segment(d, d) +=
+          y_a * (a.transpose() * y_a).fullPivLu().solve(slope - a.transpose() * y.segment(d, d));
     }
     if (eliminates) {  // held exactly: no drift to correct, whatever rounding says
       for (std::size_t k = 0; k < held; ++k) {
@@ -224,11 +230,13 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
       }
     }
     for (double t : times) {
-      if (t == t0) result.push_back({t0, y.segment(0, d), y.segment(d, d), y.segment(2 * d, d), y.segment(3 * d, d)});
+      if (t == t0)
+        result.push_back({t0, y.segment(0, d), y.segment(d, d), y.segment(2 * d, d), y.segment(3 * d, d)});
     }
     if (last) return result;
 
-    // Augmented state: y, then 1, s, s^2/2, ... s^5/120 with s = (t - t0) / (t1 - t0), which keeps the numbers level.
+    // Augmented state: y, then 1, s, s^2/2, ... s^5/120 with s = (t - t0) / (t1 - t0), which keeps the
+    // numbers level.
     const double length = t1 - t0;
     constexpr Eigen::Index extra = 6;
     MatrixXd full = MatrixXd::Zero(4 * d + extra, 4 * d + extra);
@@ -260,7 +268,8 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
       }
       if (k == 0) {
         VectorXd g(d);
-        for (Eigen::Index j = 0; j < d / 2; ++j) g.segment(2 * j, 2) << s.body_acceleration.x, s.body_acceleration.y;
+        for (Eigen::Index j = 0; j < d / 2; ++j)
+          g.segment(2 * j, 2) << s.body_acceleration.x, s.body_acceleration.y;
         right.head(d) += matrices_.mass * g;
       }
       const double omega = s.time.baumgarte;

@@ -1,7 +1,9 @@
-// The exact solution of a scene by matrix exponentials, independent of the engine's kernels, constraints and schedule.
+// The exact solution of a scene by matrix exponentials, independent of the engine's kernels, constraints and
+// schedule.
 //
-// Everything is dense and written from the equations: B matrices by finite-element textbook, the KKT matrix of equation (4)
-// as it stands, loads and prescribed motions as polynomials in an augmented state. For small meshes.
+// Everything is dense and written from the equations: B matrices by finite-element textbook, the KKT matrix
+// of equation (4) as it stands, loads and prescribed motions as polynomials in an augmented state. For small
+// meshes.
 #pragma once
 
 #include <Eigen/Dense>
@@ -22,10 +24,10 @@ struct DenseMatrices {
 };
 DenseMatrices dense_matrices(const Mesh& mesh, const Material& material);
 
-// The full operator on (u, v, w_lambda, w_mu), 8n x 8n, with A^T v' = -2 omega A^T v - omega^2 A^T u for the columns of
-// `constraints` (2n x m).
-Eigen::MatrixXd full_operator(const DenseMatrices& matrices, const Material& material, const Eigen::MatrixXd& constraints,
-                              double omega);
+// The full operator on (u, v, w_lambda, w_mu), 8n x 8n, with A^T v' = -2 omega A^T v - omega^2 A^T u for the
+// columns of `constraints` (2n x m).
+Eigen::MatrixXd full_operator(const DenseMatrices& matrices, const Material& material,
+                              const Eigen::MatrixXd& constraints, double omega);
 
 class ExactSolution {
  public:
@@ -39,7 +41,8 @@ class ExactSolution {
   DenseMatrices matrices_;
 };
 
-// design: the largest, over the times and over u, v, w_lambda, w_mu, of |difference| / (largest |block| over the run).
+// design: the largest, over the times and over u, v, w_lambda, w_mu, of |difference| / (largest |block| over
+// the run).
 double run_error(const std::vector<ExactState>& exact, const std::vector<ExactState>& run);
 
 // The engine's states at the same times.

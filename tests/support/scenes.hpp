@@ -6,7 +6,8 @@
 
 namespace rheo::test {
 
-// The paper's beam (Figure 2): 1 m x 0.25 m, 5 x 2 nodes, left edge fixed, P = [10, 0] Pa on the right for 1 s.
+// The paper's beam (Figure 2): 1 m x 0.25 m, 5 x 2 nodes, left edge fixed, P = [10, 0] Pa on the right for 1
+// s.
 inline Scene paper_beam(Mass mass) {
   Scene scene;
   scene.title = "paper's beam";

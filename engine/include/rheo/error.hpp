@@ -1,7 +1,7 @@
 // The one exception of the engine: bad input or a file that cannot be read or written.
 //
-// Thrown while loading and constructing only, never from a step. The text is one line that says where (file and line,
-// or the item), the value, what is allowed and what to do.
+// Thrown while loading and constructing only, never from a step. The text is one line that says where (file
+// and line, or the item), the value, what is allowed and what to do.
 #pragma once
 
 #include <stdexcept>

@@ -1,7 +1,7 @@
 // Fixed-step integrators for y' = A y + g(t) on flat arrays.
 //
-// They see an operator and nothing of the physics behind it: rheological bodies and scalar test equations go through
-// the same few lines.
+// They see an operator and nothing of the physics behind it: rheological bodies and scalar test equations go
+// through the same few lines.
 #pragma once
 
 #include <array>
@@ -21,7 +21,8 @@ struct Forcing {
   std::array<double, 4> weight{};
 };
 
-// What a sweep's result is for: only another sweep (parts of y that feed on nothing may be left as they are), or the step.
+// What a sweep's result is for: only another sweep (parts of y that feed on nothing may be left as they are),
+// or the step.
 enum class Result { intermediate, step };
 
 // y' = A y + g(t), applied without forming A.

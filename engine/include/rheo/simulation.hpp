@@ -9,7 +9,8 @@
 // Source   Hirai and Tomokuni, eq. (3), (4)
 // Units    u [m], v [m/s], w [Pa m], forces [N], energies [J], time [s]
 // Shapes   u, v, w_lambda, w_mu, reaction: n x 2, node by node (x0, y0, x1, y1, ...)
-// Errors   the constructor: Error::Kind::input (values, contradictory or dependent constraints, a step beyond the stable
+// Errors   the constructor: Error::Kind::input (values, contradictory or dependent constraints, a step beyond
+// the stable
 //          limit); advance: a Divergence, never an exception, never a reset
 // Not here files, pictures, threads
 #pragma once
@@ -77,7 +78,8 @@ class Simulation {
 
   const Scene& scene() const;
 
-  // The stable limits (over all sets of constraints that the scene goes through) and the largest step that will be used.
+  // The stable limits (over all sets of constraints that the scene goes through) and the largest step that
+  // will be used.
   const Spectrum& spectrum() const;
   double stable_step() const;
   double step_bound() const;
@@ -106,8 +108,8 @@ class Simulation {
   std::span<const double> multipliers();
   ProbeReading read(const Probe& probe);
 
-  // What acts now, for pictures: indices into scene().tractions with their value [Pa], and nodes held in x and/or y
-  // by fix or move.
+  // What acts now, for pictures: indices into scene().tractions with their value [Pa], and nodes held in x
+  // and/or y by fix or move.
   struct ActiveTraction {
     int index = 0;
     Vec2 p;

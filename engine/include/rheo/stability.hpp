@@ -1,15 +1,17 @@
 // The largest stable step of the explicit integrators.
 //
-// Every eigenvalue s of the full operator satisfies, with Rayleigh quotients A, B >= 0 of its own eigenvector,
+// Every eigenvalue s of the full operator satisfies, with Rayleigh quotients A, B >= 0 of its own
+// eigenvector,
 //
-//   s + A / (s + r_lambda) + B / (s + r_mu) = 0,   A + B <= omega_max^2,   A <= (A + B) lambda_ela / (lambda_ela + mu_ela)
+//   s + A / (s + r_lambda) + B / (s + r_mu) = 0
+//   A + B <= omega_max^2,   A <= (A + B) lambda_ela / (lambda_ela + mu_ela)
 //
-// so the step that keeps all such s inside the integrator's stability region is stable for the scene; relaxation
-// rates and Baumgarte's double pole -omega belong to the spectrum too.
+// so the step that keeps all such s inside the integrator's stability region is stable for the scene;
+// relaxation rates and Baumgarte's double pole -omega belong to the spectrum too.
 //
 // Source   design: Lanczos in the inner product of M for omega_max^2 = largest eigenvalue of
-//          M^-1 (lambda_ela J_lambda + mu_ela J_mu) on what the constraints leave free, its residual added, capped by the
-//          largest element eigenvalue (Irons and Treharne, 1971)
+//          M^-1 (lambda_ela J_lambda + mu_ela J_mu) on what the constraints leave free, its residual added,
+//          capped by the largest element eigenvalue (Irons and Treharne, 1971)
 // Units    rates and omega [1/s], steps [s]
 #pragma once
 
@@ -23,7 +25,7 @@ namespace rheo {
 struct Spectrum {
   double omega_max = 0.0;      // upper bound of the largest natural frequency used below [rad/s]
   double element_bound = 0.0;  // the bound by single elements [rad/s]
-  double lambda_share = 0.0;   // largest share of lambda in a mode's stiffness, lambda_ela / (lambda_ela + mu_ela)
+  double lambda_share = 0.0;   // lambda_ela / (lambda_ela + mu_ela): lambda's largest share in a mode
   double lambda_rate = 0.0;
   double mu_rate = 0.0;
   bool lambda_on = false;
@@ -32,8 +34,8 @@ struct Spectrum {
   int lanczos_steps = 0;
 };
 
-// Largest h with |R(h s)| <= 1 for every s that `spectrum` allows; 0 where no step is stable (Euler without damping
-// in some mode), infinite where every step is.
+// Largest h with |R(h s)| <= 1 for every s that `spectrum` allows; 0 where no step is stable (Euler without
+// damping in some mode), infinite where every step is.
 double stable_step(const Spectrum& spectrum, IntegratorKind integrator);
 
 // The same for one eigenvalue s (Re s <= 0), used above and by the tests on exact spectra.

@@ -110,15 +110,17 @@ void EdgeBody::add_boundary(double h, const double* x_p, double* out_v) const {
 void EdgeBody::fma(double h, std::span<const double> x, std::span<const double> base, const Forcing& forcing,
                    std::span<double> out, Result result) {
   ++counters_.force_evaluations;
-  const SweepArrays arrays{x.data() + p(),    x.data() + v(),   base.data() + p(), base.data() + v(),
-                           out.data() + p(),  out.data() + v(), base.data() + u(),
-                           result == Result::step ? out.data() + u() : nullptr};
+  const SweepArrays arrays{x.data() + p(),    x.data() + v(),
+                           base.data() + p(), base.data() + v(),
+                           out.data() + p(),  out.data() + v(),
+                           base.data() + u(), result == Result::step ? out.data() + u() : nullptr};
   sweep_(form_, inverse_mass_.data(), material_, h, arrays, 0, static_cast<std::int32_t>(form_.runs.size()));
   double* out_v = out.data() + v();
   add_boundary(h, x.data() + p(), out_v);
   const double constant = forcing.weight[0];
   const double linear = forcing.weight[0] * (forcing.t - interval_->begin) + forcing.weight[1];
-  for (const Load& load : loads_) out_v[load.slot] += h * (constant * load.acceleration + linear * load.slope);
+  for (const Load& load : loads_)
+    out_v[load.slot] += h * (constant * load.acceleration + linear * load.slope);
   if (interval_->moving) {
     for (const Held& held : held_) {
       double a = 0.0;
@@ -134,15 +136,16 @@ void EdgeBody::rheological_force(const double* x_p, Vector& force) {
   // The sweep with unit masses and h = -1 leaves F alone in out_v.
   static const SweepMaterial none;
   std::vector<double> unused(zeros_.size());
-  const SweepArrays arrays{x_p, zeros_.data(), zeros_.data(), zeros_.data(), unused.data(), force.data(), nullptr, nullptr};
+  const SweepArrays arrays{x_p,           zeros_.data(), zeros_.data(), zeros_.data(),
+                           unused.data(), force.data(),  nullptr,       nullptr};
   sweep_(form_, ones_.data(), none, -1.0, arrays, 0, static_cast<std::int32_t>(form_.runs.size()));
   std::swap(ones_, inverse_mass_);
   add_boundary(-1.0, x_p, force.data());
   std::swap(ones_, inverse_mass_);
 }
 
-// Sums over edges: x^T J_lambda w = - sum over edges of dx^T S dw, x^T J_mu w = - sum of dx^T (S + trace(S) I) dw, and the
-// boundary's antisymmetric part in both.
+// Sums over edges: x^T J_lambda w = - sum over edges of dx^T S dw, x^T J_mu w = - sum of dx^T (S + trace(S)
+// I) dw, and the boundary's antisymmetric part in both.
 EnergySample EdgeBody::sample(double t) {
   const Material& material = model_.material;
   const double* xp = state_.data() + p();
@@ -213,7 +216,8 @@ EnergySample EdgeBody::sample(double t) {
     rheological_force(xp, force_);
     for (std::size_t i = 0; i < p_rate_.size(); ++i) {
       const std::size_t k = i % 4;
-      p_rate_[i] = material_.growth[k] * xv[i / 4 * 2 + k / 2] + material_.own[k] * xp[i] + material_.cross[k] * xp[i ^ 1];
+      p_rate_[i] = material_.growth[k] * xv[i / 4 * 2 + k / 2] + material_.own[k] * xp[i] +
+                   material_.cross[k] * xp[i ^ 1];
     }
     rheological_force(p_rate_.data(), force_rate_);
     std::vector<double> external(mass_.size(), 0.0), external_rate(mass_.size(), 0.0);
@@ -224,7 +228,8 @@ EnergySample EdgeBody::sample(double t) {
     for (const Held& h : held_) {
       const double a = prescribed(h.dof, t, 2);
       const double r = mass_[h.slot] * a + force_[h.slot] - external[h.slot];
-      const double r_rate = mass_[h.slot] * prescribed(h.dof, t, 3) + force_rate_[h.slot] - external_rate[h.slot];
+      const double r_rate =
+          mass_[h.slot] * prescribed(h.dof, t, 3) + force_rate_[h.slot] - external_rate[h.slot];
       e.constraints += r * xv[h.slot];
       e.constraints_rate += r_rate * xv[h.slot] + r * a;
     }

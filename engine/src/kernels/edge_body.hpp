@@ -30,7 +30,9 @@ class EdgeBody final : public Body {
   std::size_t p() const { return 0; }
   std::size_t v() const { return 4 * static_cast<std::size_t>(form_.nodes); }
   std::size_t u() const { return 6 * static_cast<std::size_t>(form_.nodes); }
-  std::size_t slot(int dof) const { return 2 * static_cast<std::size_t>(form_.kernel_node[dof / 2]) + dof % 2; }
+  std::size_t slot(int dof) const {
+    return 2 * static_cast<std::size_t>(form_.kernel_node[dof / 2]) + dof % 2;
+  }
 
   // h x (boundary terms of F / m) subtracted from out_v.
   void add_boundary(double h, const double* x_p, double* out_v) const;

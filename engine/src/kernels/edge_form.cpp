@@ -65,7 +65,8 @@ std::vector<DirectedEdge> directed_edges(const Mesh& mesh) {
   return edges;
 }
 
-// Reverse Cuthill-McKee over every connected part, each from a node far from the middle (two breadth-first passes).
+// Reverse Cuthill-McKee over every connected part, each from a node far from the middle (two breadth-first
+// passes).
 std::vector<std::int32_t> narrow_order(std::size_t n, const std::vector<DirectedEdge>& edges,
                                        const std::vector<std::size_t>& begin) {
   std::vector<std::int32_t> order;
@@ -108,7 +109,9 @@ EdgeForm::EdgeForm(const Mesh& mesh) : nodes(mesh.node_count()), quarter_thickne
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
 
   mesh_node = narrow_order(n, edges, begin);
-  const auto valence = [&](std::int32_t node) { return static_cast<std::int32_t>(begin[node + 1] - begin[node]); };
+  const auto valence = [&](std::int32_t node) {
+    return static_cast<std::int32_t>(begin[node + 1] - begin[node]);
+  };
   for (std::size_t first = 0; first < n; first += valence_window) {
     const std::size_t last = std::min(n, first + valence_window);
     std::stable_sort(mesh_node.begin() + static_cast<std::ptrdiff_t>(first),

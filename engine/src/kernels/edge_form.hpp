@@ -1,4 +1,5 @@
-// The rheological force by edges: three numbers an edge carry both connection matrices (one material over the mesh).
+// The rheological force by edges: three numbers an edge carry both connection matrices (one material over the
+// mesh).
 //
 //   F_i = sum_j S_ij (a_j - a_i) + trace(S_ij) (w_mu,j - w_mu,i)        a = w_lambda + w_mu
 //       + boundary: (h / 4) rot(g_next - g_prev),  g = w_lambda - w_mu, rot(x, y) = (y, -x)
@@ -10,8 +11,8 @@
 //
 // so that kernels keep (b, a) at the nodes: six multiplications an edge end.
 //
-// Nodes are renumbered (reverse Cuthill-McKee, then by valence inside short stretches): neighbours lie near each other in
-// memory and runs of equal valence need no branch.
+// Nodes are renumbered (reverse Cuthill-McKee, then by valence inside short stretches): neighbours lie near
+// each other in memory and runs of equal valence need no branch.
 //
 // Source   design of this project; J_mu,ij = J_lambda,ij^T + trace(J_lambda,ij) I for linear triangles
 // Units    s0, s1, s2 [m] (thickness included): F in N for w in Pa m
@@ -52,7 +53,8 @@ struct EdgeForm {
   std::vector<Corner> corners;
   double quarter_thickness = 0.0;  // h / 4
 
-  // For stages that follow each other through the mesh: a node's neighbours have numbers within this distance.
+  // For stages that follow each other through the mesh: a node's neighbours have numbers within this
+  // distance.
   std::int32_t bandwidth = 0;
 };
 

@@ -49,11 +49,9 @@ void sweep_baseline(const EdgeForm& form, const double* inverse_mass, const Swee
 
 // One node's neighbours, `valence` known to the compiler or, as 0, not.
 template <int valence>
-__attribute__((target("avx2,fma"), always_inline)) inline void run_avx2(const EdgeForm::Run& run, const double* s,
-                                                                       const std::int32_t* neighbour,
-                                                                       const double* inverse_mass,
-                                                                       const SweepMaterial& m, double h,
-                                                                       const SweepArrays& a) {
+__attribute__((target("avx2,fma"), always_inline)) inline void run_avx2(
+    const EdgeForm::Run& run, const double* s, const std::int32_t* neighbour, const double* inverse_mass,
+    const SweepMaterial& m, double h, const SweepArrays& a) {
   const __m256d growth = _mm256_mul_pd(_mm256_set1_pd(h), _mm256_loadu_pd(m.growth));
   const __m256d own = _mm256_mul_pd(_mm256_set1_pd(h), _mm256_loadu_pd(m.own));
   const __m256d cross = _mm256_mul_pd(_mm256_set1_pd(h), _mm256_loadu_pd(m.cross));
@@ -72,13 +70,13 @@ __attribute__((target("avx2,fma"), always_inline)) inline void run_avx2(const Ed
     }
     s += 3 * count;
     neighbour += count;
-    const __m128d lx = _mm256_castpd256_pd128(level);       // s0 db_x, s1 da_x
-    const __m128d ly = _mm256_extractf128_pd(level, 1);     // s0 db_y, s1 da_y
-    const __m128d mx = _mm256_castpd256_pd128(mixed);       // -, s2 da_x
-    const __m128d my = _mm256_extractf128_pd(mixed, 1);     // -, s2 da_y
-    const __m128d s0 = _mm_unpacklo_pd(lx, ly);             // s0 db_x, s0 db_y
-    const __m128d s1 = _mm_unpackhi_pd(lx, ly);             // s1 da_x, s1 da_y
-    const __m128d s2 = _mm_unpackhi_pd(my, mx);             // s2 da_y, s2 da_x
+    const __m128d lx = _mm256_castpd256_pd128(level);    // s0 db_x, s1 da_x
+    const __m128d ly = _mm256_extractf128_pd(level, 1);  // s0 db_y, s1 da_y
+    const __m128d mx = _mm256_castpd256_pd128(mixed);    // -, s2 da_x
+    const __m128d my = _mm256_extractf128_pd(mixed, 1);  // -, s2 da_y
+    const __m128d s0 = _mm_unpacklo_pd(lx, ly);          // s0 db_x, s0 db_y
+    const __m128d s1 = _mm_unpackhi_pd(lx, ly);          // s1 da_x, s1 da_y
+    const __m128d s2 = _mm_unpackhi_pd(my, mx);          // s2 da_y, s2 da_x
     const __m128d signed_s1 = _mm_xor_pd(s1, _mm_set_pd(-0.0, 0.0));
     const __m128d force = _mm_add_pd(_mm_add_pd(s0, signed_s1), s2);
     const __m128d v = _mm_loadu_pd(a.x_v + 2 * i);
@@ -105,12 +103,24 @@ __attribute__((target("avx2,fma"))) void sweep_avx2(const EdgeForm& form, const 
     const double* s = form.s.data() + 3 * run.edge;
     const std::int32_t* neighbour = form.neighbour.data() + run.edge;
     switch (run.valence) {
-      case 4: run_avx2<4>(run, s, neighbour, inverse_mass, m, h, a); break;
-      case 5: run_avx2<5>(run, s, neighbour, inverse_mass, m, h, a); break;
-      case 6: run_avx2<6>(run, s, neighbour, inverse_mass, m, h, a); break;
-      case 7: run_avx2<7>(run, s, neighbour, inverse_mass, m, h, a); break;
-      case 8: run_avx2<8>(run, s, neighbour, inverse_mass, m, h, a); break;
-      default: run_avx2<0>(run, s, neighbour, inverse_mass, m, h, a); break;
+      case 4:
+        run_avx2<4>(run, s, neighbour, inverse_mass, m, h, a);
+        break;
+      case 5:
+        run_avx2<5>(run, s, neighbour, inverse_mass, m, h, a);
+        break;
+      case 6:
+        run_avx2<6>(run, s, neighbour, inverse_mass, m, h, a);
+        break;
+      case 7:
+        run_avx2<7>(run, s, neighbour, inverse_mass, m, h, a);
+        break;
+      case 8:
+        run_avx2<8>(run, s, neighbour, inverse_mass, m, h, a);
+        break;
+      default:
+        run_avx2<0>(run, s, neighbour, inverse_mass, m, h, a);
+        break;
     }
   }
 }
@@ -121,9 +131,12 @@ __attribute__((target("avx2,fma"))) void sweep_avx2(const EdgeForm& form, const 
 
 const char* name_of(SimdLevel level) {
   switch (level) {
-    case SimdLevel::avx512: return "avx512";
-    case SimdLevel::avx2: return "avx2";
-    case SimdLevel::baseline: break;
+    case SimdLevel::avx512:
+      return "avx512";
+    case SimdLevel::avx2:
+      return "avx2";
+    case SimdLevel::baseline:
+      break;
   }
   return "baseline";
 }
@@ -136,7 +149,9 @@ bool has_simd_level(SimdLevel level) {
   return false;
 }
 
-SimdLevel best_simd_level() { return has_simd_level(SimdLevel::avx2) ? SimdLevel::avx2 : SimdLevel::baseline; }
+SimdLevel best_simd_level() {
+  return has_simd_level(SimdLevel::avx2) ? SimdLevel::avx2 : SimdLevel::baseline;
+}
 
 SweepFunction sweep_function(SimdLevel level) {
   assert(has_simd_level(level));

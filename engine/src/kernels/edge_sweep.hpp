@@ -4,11 +4,11 @@
 //   v' = (f - F(p)) / m,  p' = growth v - decay p,  u' = v
 //   decay couples b and a of one axis: p' = growth * v + own * p + cross * (the other of b, a)
 //
-// The same arithmetic in baseline, AVX2 and AVX-512 code, chosen at run time by what the processor has. Each rounds in its
-// own way; each alone is deterministic, whatever the number of threads.
+// The same arithmetic in baseline, AVX2 and AVX-512 code, chosen at run time by what the processor has. Each
+// rounds in its own way; each alone is deterministic, whatever the number of threads.
 //
-// Shapes   p: n x 4, v: n x 2, inverse_mass: n x 2 (zero where a degree of freedom is held), all in the kernel's order
-// Errors   none
+// Shapes   p: n x 4, v: n x 2, inverse_mass: n x 2 (zero where a degree of freedom is held), all in the
+// kernel's order Errors   none
 #pragma once
 
 #include <cstdint>
@@ -41,8 +41,9 @@ const char* name_of(SimdLevel level);
 SimdLevel best_simd_level();
 bool has_simd_level(SimdLevel level);
 
-using SweepFunction = void (*)(const EdgeForm& form, const double* inverse_mass, const SweepMaterial& material, double h,
-                               const SweepArrays& arrays, std::int32_t first_run, std::int32_t last_run);
+using SweepFunction = void (*)(const EdgeForm& form, const double* inverse_mass,
+                               const SweepMaterial& material, double h, const SweepArrays& arrays,
+                               std::int32_t first_run, std::int32_t last_run);
 SweepFunction sweep_function(SimdLevel level);
 
 }  // namespace rheo
