@@ -18,19 +18,12 @@ EdgeBody::EdgeBody(const Mesh& mesh, const Model& model, SimdLevel level)
   mass_.resize(2 * n);
   for (std::size_t k = 0; k < n; ++k) mass_[2 * k] = mass_[2 * k + 1] = model.node_mass[form_.mesh_node[k]];
 
-  // w_l = (3 a - b) / 2, w_m = (b - a) / 2 with a = w_l + w_m, b = w_l + 3 w_m; a branch that is off stays 0.
   const Material& m = model.material;
-  const double l = m.lambda_rate();
-  const double r = m.mu_rate();
   for (int axis = 0; axis < 2; ++axis) {
-    const int b = 2 * axis;
-    const int a = b + 1;
-    material_.growth[b] = m.lambda_ela + 3 * m.mu_ela;
-    material_.growth[a] = m.lambda_ela + m.mu_ela;
-    material_.own[b] = -0.5 * (3 * r - l);
-    material_.cross[b] = -1.5 * (l - r);
-    material_.own[a] = -0.5 * (3 * l - r);
-    material_.cross[a] = -0.5 * (r - l);
+    material_.growth[axis] = m.lambda_ela;
+    material_.growth[2 + axis] = m.mu_ela;
+    material_.decay[axis] = m.lambda_rate();
+    material_.decay[2 + axis] = m.mu_rate();
   }
 }
 
@@ -40,10 +33,8 @@ void EdgeBody::load(std::span<const double> y) {
     const auto node = static_cast<std::size_t>(form_.mesh_node[k]);
     for (std::size_t axis = 0; axis < 2; ++axis) {
       const std::size_t i = 2 * node + axis;
-      const double l = layout.lambda ? y[layout.w_lambda() + i] : 0.0;
-      const double m = layout.mu ? y[layout.w_mu() + i] : 0.0;
-      state_[p() + 4 * k + 2 * axis] = l + 3 * m;
-      state_[p() + 4 * k + 2 * axis + 1] = l + m;
+      state_[p() + 4 * k + axis] = layout.lambda ? y[layout.w_lambda() + i] : 0.0;
+      state_[p() + 4 * k + 2 + axis] = layout.mu ? y[layout.w_mu() + i] : 0.0;
       state_[v() + 2 * k + axis] = y[layout.v() + i];
       state_[u() + 2 * k + axis] = y[layout.u() + i];
     }
@@ -56,10 +47,8 @@ void EdgeBody::store(std::span<double> y) const {
     const auto node = static_cast<std::size_t>(form_.mesh_node[k]);
     for (std::size_t axis = 0; axis < 2; ++axis) {
       const std::size_t i = 2 * node + axis;
-      const double b = state_[p() + 4 * k + 2 * axis];
-      const double a = state_[p() + 4 * k + 2 * axis + 1];
-      if (layout.lambda) y[layout.w_lambda() + i] = 0.5 * (3 * a - b);
-      if (layout.mu) y[layout.w_mu() + i] = 0.5 * (b - a);
+      if (layout.lambda) y[layout.w_lambda() + i] = state_[p() + 4 * k + axis];
+      if (layout.mu) y[layout.w_mu() + i] = state_[p() + 4 * k + 2 + axis];
       y[layout.v() + i] = state_[v() + 2 * k + axis];
       y[layout.u() + i] = state_[u() + 2 * k + axis];
     }
@@ -95,10 +84,10 @@ void EdgeBody::impose_prescribed(double t) {
 
 void EdgeBody::add_boundary(double h, const double* x_p, double* out_v) const {
   const double scale = h * form_.quarter_thickness;
-  const auto difference = [&](const EdgeForm::Corner& c, int axis) {  // of g = w_lambda - w_mu = 2 a - b
-    const double* next = x_p + 4 * static_cast<std::size_t>(c.next) + 2 * axis;
-    const double* previous = x_p + 4 * static_cast<std::size_t>(c.previous) + 2 * axis;
-    return 2 * (next[1] - previous[1]) - (next[0] - previous[0]);
+  const auto difference = [&](const EdgeForm::Corner& c, std::size_t axis) {  // of w_lambda - w_mu
+    const double* next = x_p + 4 * static_cast<std::size_t>(c.next) + axis;
+    const double* previous = x_p + 4 * static_cast<std::size_t>(c.previous) + axis;
+    return (next[0] - previous[0]) - (next[2] - previous[2]);
   };
   for (const EdgeForm::Corner& c : form_.corners) {
     const std::size_t i = 2 * static_cast<std::size_t>(c.node);
@@ -154,18 +143,16 @@ EnergySample EdgeBody::sample(double t) {
   double ll = 0.0, mm = 0.0, vl = 0.0, vm = 0.0, kinetic = 0.0;
   for (const EdgeForm::Run& run : form_.runs) {
     const double* s = form_.s.data() + 3 * run.edge;
-    const std::int32_t* neighbour = form_.neighbour.data() + run.edge;
-    for (std::int32_t i = run.first; i < run.last; ++i) {
-      const double* pi = xp + 4 * static_cast<std::size_t>(i);
-      const double* vi = xv + 2 * static_cast<std::size_t>(i);
-      kinetic += mass_[2 * static_cast<std::size_t>(i)] * (vi[0] * vi[0] + vi[1] * vi[1]);
-      for (std::int32_t k = 0; k < run.valence; ++k, s += 3, ++neighbour) {
-        if (*neighbour < i) continue;  // each edge once
-        const double* pj = xp + 4 * static_cast<std::size_t>(*neighbour);
-        const double* vj = xv + 2 * static_cast<std::size_t>(*neighbour);
-        const double bx = pj[0] - pi[0], ax = pj[1] - pi[1], by = pj[2] - pi[2], ay = pj[3] - pi[3];
-        const double lx = 1.5 * ax - 0.5 * bx, ly = 1.5 * ay - 0.5 * by;
-        const double mx = 0.5 * (bx - ax), my = 0.5 * (by - ay);
+    const std::uint32_t* offset = form_.offset.data() + run.edge;
+    for (std::size_t i = static_cast<std::size_t>(run.first); i < static_cast<std::size_t>(run.last); ++i) {
+      const double* pi = xp + 4 * i;
+      const double* vi = xv + 2 * i;
+      kinetic += mass_[2 * i] * (vi[0] * vi[0] + vi[1] * vi[1]);
+      for (std::int32_t k = 0; k < run.valence; ++k, s += 3, ++offset) {
+        if (*offset < 4 * i) continue;  // each edge once
+        const double* pj = xp + *offset;
+        const double* vj = xv + *offset / 2;
+        const double lx = pj[0] - pi[0], ly = pj[1] - pi[1], mx = pj[2] - pi[2], my = pj[3] - pi[3];
         const double dx = vj[0] - vi[0], dy = vj[1] - vi[1];
         const double slx = (s[0] + s[1]) * lx + s[2] * ly, sly = s[2] * lx + (s[0] - s[1]) * ly;
         const double smx = (3 * s[0] + s[1]) * mx + s[2] * my, smy = s[2] * mx + (3 * s[0] - s[1]) * my;
@@ -184,13 +171,11 @@ EnergySample EdgeBody::sample(double t) {
     const double* vi = xv + 2 * static_cast<std::size_t>(c.node);
     std::array<double, 4> d;
     for (int k = 0; k < 4; ++k) d[k] = next[k] - previous[k];
-    const double lx = 1.5 * d[1] - 0.5 * d[0], ly = 1.5 * d[3] - 0.5 * d[2];
-    const double mx = 0.5 * (d[0] - d[1]), my = 0.5 * (d[2] - d[3]);
     const double q = form_.quarter_thickness;
-    ll += q * ((1.5 * pi[1] - 0.5 * pi[0]) * ly - (1.5 * pi[3] - 0.5 * pi[2]) * lx);
-    mm -= q * (0.5 * (pi[0] - pi[1]) * my - 0.5 * (pi[2] - pi[3]) * mx);
-    vl += q * (vi[0] * ly - vi[1] * lx);
-    vm -= q * (vi[0] * my - vi[1] * mx);
+    ll += q * (pi[0] * d[1] - pi[1] * d[0]);
+    mm -= q * (pi[2] * d[3] - pi[3] * d[2]);
+    vl += q * (vi[0] * d[1] - vi[1] * d[0]);
+    vm -= q * (vi[0] * d[3] - vi[1] * d[2]);
   }
 
   EnergySample e;
@@ -216,8 +201,7 @@ EnergySample EdgeBody::sample(double t) {
     rheological_force(xp, force_);
     for (std::size_t i = 0; i < p_rate_.size(); ++i) {
       const std::size_t k = i % 4;
-      p_rate_[i] = material_.growth[k] * xv[i / 4 * 2 + k / 2] + material_.own[k] * xp[i] +
-                   material_.cross[k] * xp[i ^ 1];
+      p_rate_[i] = material_.growth[k] * xv[i / 4 * 2 + k % 2] - material_.decay[k] * xp[i];
     }
     rheological_force(p_rate_.data(), force_rate_);
     std::vector<double> external(mass_.size(), 0.0), external_rate(mass_.size(), 0.0);

@@ -121,18 +121,18 @@ EdgeForm::EdgeForm(const Mesh& mesh) : nodes(mesh.node_count()), quarter_thickne
   kernel_node.resize(n);
   for (std::size_t k = 0; k < n; ++k) kernel_node[mesh_node[k]] = static_cast<std::int32_t>(k);
 
-  neighbour.reserve(edges.size());
+  offset.reserve(edges.size());
   s.reserve(3 * edges.size());
   for (std::size_t k = 0; k < n; ++k) {
     const std::int32_t node = mesh_node[k];
     if (runs.empty() || runs.back().valence != valence(node)) {
       runs.push_back({static_cast<std::int32_t>(k), static_cast<std::int32_t>(k), valence(node),
-                      static_cast<std::int64_t>(neighbour.size())});
+                      static_cast<std::int64_t>(offset.size())});
     }
     ++runs.back().last;
     for (std::size_t e = begin[node]; e < begin[node + 1]; ++e) {
       const std::int32_t other = kernel_node[edges[e].to];
-      neighbour.push_back(other);
+      offset.push_back(4 * static_cast<std::uint32_t>(other));
       s.insert(s.end(), {edges[e].s0, edges[e].s1, edges[e].s2});
       bandwidth = std::max(bandwidth, std::abs(other - static_cast<std::int32_t>(k)));
     }

@@ -5,11 +5,13 @@
 //       + boundary: (h / 4) rot(g_next - g_prev),  g = w_lambda - w_mu, rot(x, y) = (y, -x)
 //   S_ij = sum over the triangles of edge ij of h / (4 T) sym((b_i, c_i) (b_j, c_j)^T)
 //
-// With S = s0 I + s1 diag(1, -1) + s2 antidiag(1, 1) and the combination b = a + 2 w_mu this is
+// With S = s0 I + s1 diag(1, -1) + s2 antidiag(1, 1) this is, in the sums s_k dw over a node's edges,
 //
-//   F_i,x = sum_j s0 db_x + s1 da_x + s2 da_y,   F_i,y = sum_j s0 db_y - s1 da_y + s2 da_x
+//   F_x = sum s0 (dl_x + 3 dm_x) + s1 (dl_x + dm_x) + s2 (dl_y + dm_y)         l = w_lambda, m = w_mu
+//   F_y = sum s0 (dl_y + 3 dm_y) - s1 (dl_y + dm_y) + s2 (dl_x + dm_x)
 //
-// so that kernels keep (b, a) at the nodes: six multiplications an edge end.
+// so that kernels gather 4 numbers a neighbour and keep three sums of 4 lanes a node, combined once at its
+// end.
 //
 // Nodes are renumbered (reverse Cuthill-McKee, then by valence inside short stretches): neighbours lie near
 // each other in memory and runs of equal valence need no branch.
@@ -41,8 +43,8 @@ struct EdgeForm {
     std::int64_t edge = 0;  // of `first`
   };
   std::vector<Run> runs;
-  std::vector<std::int32_t> neighbour;  // by directed edge
-  std::vector<double> s;                // 3 by directed edge: s0, s1, s2
+  std::vector<std::uint32_t> offset;  // by directed edge: 4 x the neighbour's number
+  std::vector<double> s;              // 3 by directed edge: s0, s1, s2
 
   // Boundary passages: previous and next node along the boundary (interior on the left) of a boundary node.
   struct Corner {

@@ -1,8 +1,7 @@
 // One sweep of the edge form for a lumped body with eliminated constraints: out = base + h (A x + g), fused.
 //
-//   p = (b_x, a_x, b_y, a_y) with a = w_lambda + w_mu, b = w_lambda + 3 w_mu (see edge_form.hpp)
+//   p = (l_x, l_y, m_x, m_y), l = w_lambda, m = w_mu
 //   v' = (f - F(p)) / m,  p' = growth v - decay p,  u' = v
-//   decay couples b and a of one axis: p' = growth * v + own * p + cross * (the other of b, a)
 //
 // The same arithmetic in baseline, AVX2 and AVX-512 code, chosen at run time by what the processor has. Each
 // rounds in its own way; each alone is deterministic, whatever the number of threads.
@@ -29,9 +28,8 @@ struct SweepArrays {
 };
 
 struct SweepMaterial {
-  double growth[4] = {};  // of (b_x, a_x, b_y, a_y) by v
-  double own[4] = {};
-  double cross[4] = {};
+  double growth[4] = {};  // lambda_ela twice, mu_ela twice
+  double decay[4] = {};   // the rates
 };
 
 enum class SimdLevel { baseline, avx2, avx512 };

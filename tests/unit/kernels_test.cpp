@@ -1,0 +1,183 @@
+// The kernels against the assembled reference: one operator, whatever the way to the force.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "assembled_body.hpp"
+#include "kernels/edge_body.hpp"
+#include "schedule.hpp"
+#include "support/scenes.hpp"
+
+namespace rheo::test {
+namespace {
+
+// An irregular mesh with a hole and, where two cut-out cells touch, a node at which the boundary meets
+// itself.
+Mesh random_mesh(std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const int nx = 7 + static_cast<int>(2 * (1 + unit(random)));
+  const int ny = 6 + static_cast<int>(2 * (1 + unit(random)));
+  const double size = std::pow(10.0, 3 * unit(random));
+  Mesh mesh = rectangle({size, 0.7 * size}, nx, ny, Diagonal::alternating);
+  for (Vec2& p : mesh.points) {
+    p.x += 0.25 * size / nx * unit(random);
+    p.y += 0.25 * 0.7 * size / ny * unit(random);
+  }
+  std::vector<Triangle> kept;
+  for (const Triangle& t : mesh.triangles) {
+    const auto cell = [&](int column, int row) {
+      int inside = 0;
+      for (int node : t) {
+        const int c = node % nx, r = node / nx;
+        inside += c >= column && c <= column + 1 && r >= row && r <= row + 1;
+      }
+      return inside == 3;
+    };
+    if (!cell(2, 2) && !cell(3, 3)) kept.push_back(t);
+  }
+  mesh.triangles = kept;
+  mesh.edge_groups.clear();
+  mesh.thickness = std::pow(10.0, unit(random));
+  prepare(mesh);
+  return mesh;
+}
+
+Scene random_scene(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto decades = [&](double n) { return std::pow(10.0, n * unit(random)); };
+  Scene scene;
+  scene.mesh = random_mesh(random);
+  Material& m = scene.material;
+  m = {decades(4), decades(4), decades(4), decades(4), decades(3), Mass::lumped};
+  if (seed % 5 == 1) m.lambda_ela = 0.0;
+  if (seed % 5 == 2) m.mu_ela = 0.0;
+  if (seed % 5 == 3) m.lambda_vis = forever;
+  scene.body_acceleration = {unit(random), unit(random)};
+  scene.fixes.push_back({{0, 1, 2}, Axis::both, {}, ""});
+  scene.fixes.push_back({{4}, Axis::y, {}, ""});
+  scene.moves.push_back(
+      {{6, 7}, Axis::x, {}, {{0, {0, 0}, {}}, {2, {unit(random), 0}, {}}}, Profile::smooth, ""});
+  scene.tractions.push_back(
+      {scene.mesh.edge_groups.at("boundary"), {{0, {unit(random), 1}}, {3, {0, unit(random)}}}, {}, ""});
+  scene.time.duration = 1.0;
+  return scene;
+}
+
+// One sweep and one energy sample of a body at a state and time.
+struct Outcome {
+  std::vector<double> swept;
+  EnergySample sample;
+  Vector reaction;
+};
+
+Outcome outcome(Body& body, const Interval& interval, const Vector& base, const std::vector<double>& y,
+                double t) {
+  body.enter(interval, base);
+  body.load(y);
+  body.impose_prescribed(t);
+  Outcome result;
+  result.sample = body.sample(t);
+  body.reaction(t, result.reaction);
+  std::vector<double> out(body.size());
+  const std::vector<double> zero(body.size(), 0.0);
+  body.fma(1.0, body.state(), zero, {t, {1.0, 0.3, 0.02, 0.001}}, out, Result::step);
+  std::copy(out.begin(), out.end(), body.state().begin());
+  result.swept.resize(y.size());
+  body.store(result.swept);
+  return result;
+}
+
+// Largest difference of a part over the part's largest entry.
+double difference(const std::vector<double>& a, const std::vector<double>& b, std::size_t begin,
+                  std::size_t count) {
+  double worst = 0.0, largest = 0.0;
+  for (std::size_t i = begin; i < begin + count; ++i) {
+    worst = std::max(worst, std::abs(a[i] - b[i]));
+    largest = std::max(largest, std::abs(a[i]));
+  }
+  return largest > 0.0 ? worst / largest : worst;
+}
+
+class Kernels : public testing::TestWithParam<SimdLevel> {};
+
+TEST_P(Kernels, AgreeWithTheAssembledForm) {
+  if (!has_simd_level(GetParam())) GTEST_SKIP() << "this processor has no " << name_of(GetParam());
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    const Scene scene = random_scene(seed);
+    const Model model(scene.mesh, scene.material);
+    Schedule schedule(scene, model);
+    const Interval interval = schedule.interval(0);
+    std::mt19937 random(seed + 1000);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    std::vector<double> y(model.layout.size());
+    for (double& x : y) x = unit(random);
+    Vector base = Vector::Zero(static_cast<Eigen::Index>(model.layout.part));
+
+    AssembledBody assembled(model, 0.0);
+    EdgeBody edges(scene.mesh, model, GetParam());
+    const Outcome a = outcome(assembled, interval, base, y, 0.7);
+    const Outcome b = outcome(edges, interval, base, y, 0.7);
+    for (std::size_t begin = 0; begin < y.size(); begin += model.layout.part) {
+      EXPECT_LT(difference(a.swept, b.swept, begin, model.layout.part), 1e-12)
+          << "seed " << seed << " part " << begin;
+    }
+    const auto near = [&](double x, double z, double scale, const char* what) {
+      EXPECT_NEAR(x, z, 1e-12 * scale) << "seed " << seed << ": " << what;
+    };
+    near(a.sample.kinetic, b.sample.kinetic, a.sample.kinetic, "kinetic");
+    near(a.sample.stored, b.sample.stored, a.sample.stored, "stored");
+    near(a.sample.dissipated, b.sample.dissipated, a.sample.dissipated, "dissipated");
+    near(a.sample.load, b.sample.load, scene.mesh.node_count() * std::abs(a.sample.load), "load");
+    const double r = a.reaction.lpNorm<Eigen::Infinity>();
+    EXPECT_LT((a.reaction - b.reaction).lpNorm<Eigen::Infinity>(), 1e-12 * r) << "seed " << seed;
+    near(a.sample.constraints, b.sample.constraints, r, "constraints");
+    EXPECT_NEAR(a.sample.dissipated_rate, b.sample.dissipated_rate,
+                1e-10 * (std::abs(a.sample.dissipated_rate) + a.sample.dissipated))
+        << "seed " << seed;
+  }
+}
+
+TEST_P(Kernels, GiveOneRunOverWholeScenes) {
+  if (!has_simd_level(GetParam())) GTEST_SKIP() << "this processor has no " << name_of(GetParam());
+  Scene scene = paper_beam(Mass::lumped);
+  Simulation csr(scene, {.kernel = Kernel::csr}), edge(scene, {.kernel = Kernel::edge});
+  EXPECT_EQ(csr.kernel(), "csr");
+  EXPECT_EQ(edge.kernel(), "edge");
+  ASSERT_FALSE(csr.advance(2.0));
+  ASSERT_FALSE(edge.advance(2.0));
+  for (std::size_t i = 0; i < csr.u().size(); ++i) EXPECT_NEAR(csr.u()[i], edge.u()[i], 1e-12);
+  EXPECT_EQ(csr.counters().steps, edge.counters().steps);
+}
+
+INSTANTIATE_TEST_SUITE_P(Levels, Kernels,
+                         testing::Values(SimdLevel::baseline, SimdLevel::avx2, SimdLevel::avx512),
+                         [](const auto& c) { return std::string(name_of(c.param)); });
+
+TEST(EdgeForm, RenumbersEveryNodeOnceAndKeepsNeighboursNear) {
+  const Mesh mesh = rectangle({1, 1}, 60, 60, Diagonal::alternating);
+  const EdgeForm form(mesh);
+  std::vector<int> seen(form.nodes, 0);
+  for (std::int32_t node : form.mesh_node) ++seen[node];
+  for (int count : seen) EXPECT_EQ(count, 1);
+  std::int64_t edges = 0;
+  for (const EdgeForm::Run& run : form.runs)
+    edges += static_cast<std::int64_t>(run.last - run.first) * run.valence;
+  EXPECT_EQ(edges, static_cast<std::int64_t>(form.offset.size()));
+  // Euler's formula: edges = nodes + triangles - 1 on a disk, each twice here.
+  EXPECT_EQ(edges, 2 * (mesh.node_count() + mesh.triangle_count() - 1));
+  // A level of the breadth-first order is about a row; swaps inside windows add to it.
+  EXPECT_LT(form.bandwidth, 3 * 60 + 2 * 128);
+}
+
+TEST(Kernel, ThatTheSceneDoesNotAllowIsRefused) {
+  const Scene scene = paper_beam(Mass::consistent);
+  EXPECT_THROW(Simulation(scene, {.kernel = Kernel::edge}), std::runtime_error);
+  EXPECT_EQ(Simulation(scene).kernel(), "csr");
+}
+
+}  // namespace
+}  // namespace rheo::test
