@@ -1,0 +1,193 @@
+// Time of one RK4 step: the kernels against textbook RK4 on assembled matrices, on jittered unstructured
+// meshes.
+//
+//   step/csr/<triangles>     k1..k4 with Eigen's row-major products, one for each residual force: the
+//   baseline step/<kernel>/<triangles>  the engine's integrator on its operator, without energies
+//
+// Counters: ns a triangle and step; the bytes and flops that a step must at least move and do; the hash of
+// the state at the end (the same for the same kernel and number of steps). Run with
+// --benchmark_enable_random_interleaving=true and
+// --benchmark_repetitions=9 on a machine that does nothing else, and compare medians.
+
+#include <benchmark/benchmark.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <random>
+
+#include "assembled_body.hpp"
+#include "kernels/edge_body.hpp"
+#include "rheo/shapes.hpp"
+#include "schedule.hpp"
+
+namespace {
+
+using rheo::Vector;
+
+// A square of about `triangles` triangles, its inner nodes moved at random and its numbering shuffled, fixed
+// at the left and pulled at the right. The step is far below the stable limit: many steps from a random state
+// stay of one size.
+struct Case {
+  explicit Case(int triangles) {
+    const int n = std::max(2, static_cast<int>(std::lround(std::sqrt(triangles / 2.0))) + 1);
+    scene.mesh = rheo::rectangle({1, 1}, n, n, rheo::Diagonal::alternating);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> unit(-0.25 / n, 0.25 / n);
+    for (int row = 1; row + 1 < n; ++row) {
+      for (int column = 1; column + 1 < n; ++column) {
+        scene.mesh.points[row * n + column].x += unit(random);
+        scene.mesh.points[row * n + column].y += unit(random);
+      }
+    }
+    rheo::prepare(scene.mesh);
+    scene.material = {7, 5, 4, 2, 0.2, rheo::Mass::lumped};
+    scene.fixes.push_back({rheo::nodes_of(scene.mesh.edge_groups.at("left")), rheo::Axis::both, {}, ""});
+    scene.tractions.push_back({scene.mesh.edge_groups.at("right"), {{0, {1, 0}}}, {}, ""});
+    scene.time.duration = 1.0;
+    model = std::make_unique<rheo::Model>(scene.mesh, scene.material);
+    solver = std::make_shared<rheo::ConstraintSolver>(*model, held(), std::vector<rheo::Column>{});
+    interval.force.setZero(static_cast<Eigen::Index>(model->layout.part));
+    for (int node : rheo::nodes_of(scene.mesh.edge_groups.at("right"))) interval.force[2 * node] = 1.0 / n;
+    interval.eliminated = interval.held = held();
+    interval.course.resize(1);
+    interval.solver = solver;
+    base.setZero(static_cast<Eigen::Index>(model->layout.part));
+    step = 1e-3 / model->element_omega;
+    y.resize(model->layout.size());
+    std::uniform_real_distribution<double> any(-1, 1);
+    for (double& x : y) x = any(random);
+    for (const rheo::HeldDof& h : held()) y[model->layout.v() + h.dof] = 0.0;
+  }
+
+  std::vector<rheo::HeldDof> held() const {
+    std::vector<rheo::HeldDof> dofs;
+    for (int node : scene.fixes[0].nodes) {
+      dofs.push_back({2 * node, 0});
+      dofs.push_back({2 * node + 1, 0});
+    }
+    return dofs;
+  }
+
+  rheo::Scene scene;
+  std::unique_ptr<rheo::Model> model;
+  std::shared_ptr<const rheo::ConstraintSolver> solver;
+  rheo::Interval interval;
+  Vector base;
+  std::vector<double> y;
+  double step = 0.0;
+};
+
+const Case& case_of(int triangles) {
+  static std::map<int, std::unique_ptr<Case>> cases;
+  auto& one = cases[triangles];
+  if (!one) one = std::make_unique<Case>(triangles);
+  return *one;
+}
+
+std::uint32_t hash_of(std::span<const double> y) {  // FNV-1a over the bits
+  std::uint32_t hash = 2166136261u;
+  for (double x : y) {
+    const auto bits = std::bit_cast<std::uint64_t>(x);
+    for (int shift = 0; shift < 64; shift += 8)
+      hash = (hash ^ static_cast<std::uint8_t>(bits >> shift)) * 16777619u;
+  }
+  return hash;
+}
+
+void report(benchmark::State& state, const Case& c, double bytes, double flops, std::span<const double> y) {
+  const double triangles = c.scene.mesh.triangle_count();
+  state.counters["ns/tri"] = benchmark::Counter(
+      1e-9 * triangles, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["bytes/tri"] = bytes / triangles;
+  state.counters["flops/tri"] = flops / triangles;
+  state.counters["hash"] = hash_of(y);
+}
+
+// Textbook: y' = f(y) with two products, four stages, sums of whole vectors.
+void step_csr(benchmark::State& state) {
+  const Case& c = case_of(static_cast<int>(state.range(0)));
+  const rheo::Model& m = *c.model;
+  const auto part = static_cast<Eigen::Index>(m.layout.part);
+  Vector inverse_mass(part);
+  for (Eigen::Index i = 0; i < part; ++i) inverse_mass[i] = 1.0 / m.node_mass[i / 2];
+  for (const rheo::HeldDof& h : c.interval.eliminated) inverse_mass[h.dof] = 0.0;
+  Vector y = Eigen::Map<const Vector>(c.y.data(), static_cast<Eigen::Index>(c.y.size()));
+  Vector k1(y.size()), k2(y.size()), k3(y.size()), k4(y.size()), z(y.size()), force(part);
+  const auto f = [&](const Vector& x, Vector& out) {
+    force.noalias() = m.j_lambda * x.segment(2 * part, part);
+    force.noalias() += m.j_mu * x.segment(3 * part, part);
+    out.segment(0, part) = x.segment(part, part);
+    out.segment(part, part) = inverse_mass.cwiseProduct(c.interval.force - force);
+    out.segment(2 * part, part) =
+        m.material.lambda_ela * x.segment(part, part) - m.material.lambda_rate() * x.segment(2 * part, part);
+    out.segment(3 * part, part) =
+        m.material.mu_ela * x.segment(part, part) - m.material.mu_rate() * x.segment(3 * part, part);
+  };
+  const double h = c.step;
+  for (auto _ : state) {
+    f(y, k1);
+    z = y + h / 2 * k1;
+    f(z, k2);
+    z = y + h / 2 * k2;
+    f(z, k3);
+    z = y + h * k3;
+    f(z, k4);
+    y += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  }
+  const auto entries = static_cast<double>(m.j_lambda.nonZeros() + m.j_mu.nonZeros());
+  report(state, c, 4 * (12 * entries + 8.0 * static_cast<double>(part) * 12),
+         4 * (2 * entries + 20.0 * static_cast<double>(part)),
+         {y.data(), static_cast<std::size_t>(y.size())});
+}
+
+void run_body(benchmark::State& state, const Case& c, rheo::Body& body, double bytes, double flops) {
+  body.enter(c.interval, c.base);
+  body.load(c.y);
+  const auto integrator = rheo::make_integrator(rheo::IntegratorKind::rk4, body.size());
+  for (auto _ : state) {
+    integrator->step(body, 0.0, c.step, body.state(), {});
+    body.impose_prescribed(0.0);
+  }
+  report(state, c, bytes, flops, body.state());
+}
+
+template <rheo::SimdLevel level>
+void step_edge(benchmark::State& state) {
+  if (!rheo::has_simd_level(level)) {
+    state.SkipWithError("this processor has not these instructions");
+    return;
+  }
+  const Case& c = case_of(static_cast<int>(state.range(0)));
+  rheo::EdgeBody body(c.scene.mesh, *c.model, level);
+  const rheo::EdgeForm form(c.scene.mesh);
+  const auto edges = static_cast<double>(form.offset.size());
+  const auto nodes = static_cast<double>(form.nodes);
+  // A sweep reads an edge's 3 numbers and index, and a node's x, base and inverse mass, and writes out; u
+  // once a step.
+  run_body(state, c, body, 4 * (28 * edges + nodes * (48 + 48 + 16 + 48)) + 32 * nodes,
+           4 * (28 * edges + 36 * nodes));
+}
+
+void step_assembled(benchmark::State& state) {
+  const Case& c = case_of(static_cast<int>(state.range(0)));
+  rheo::AssembledBody body(*c.model, 0.0);
+  const auto entries = static_cast<double>(c.model->j_lambda.nonZeros() + c.model->j_mu.nonZeros());
+  run_body(state, c, body, 4 * (12 * entries + 8.0 * static_cast<double>(c.model->layout.part) * 10),
+           4 * (2 * entries + 12.0 * static_cast<double>(c.model->layout.part)));
+}
+
+void sizes(benchmark::internal::Benchmark* b) {
+  for (int triangles : {1000, 10000, 100000, 1000000}) b->Arg(triangles);
+  b->UseRealTime();
+}
+
+BENCHMARK(step_csr)->Name("step/csr")->Apply(sizes);
+BENCHMARK(step_assembled)->Name("step/assembled_horner")->Apply(sizes);
+BENCHMARK(step_edge<rheo::SimdLevel::baseline>)->Name("step/edge_baseline")->Apply(sizes);
+BENCHMARK(step_edge<rheo::SimdLevel::avx2>)->Name("step/edge_avx2")->Apply(sizes);
+BENCHMARK(step_edge<rheo::SimdLevel::avx512>)->Name("step/edge_avx512")->Apply(sizes);
+
+}  // namespace
