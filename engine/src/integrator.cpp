@@ -48,14 +48,18 @@ class Rk4 final : public Integrator {
   void step(LinearOperator& op, double t, double h, std::span<double> y,
             std::span<const double> rate) override {
     assert(y.size() == a_.size());
+    const std::array<LinearOperator::Sweep, 4> sweeps{{
+        {h / 4, y, y, {t, {1.0, 0.0, 0.0, 0.0}}, a_, Result::intermediate},
+        {h / 3, a_, y, {t, {1.0, h / 4, 0.0, 0.0}}, b_, Result::intermediate},
+        {h / 2, b_, y, {t, {1.0, h / 3, h * h / 12, 0.0}}, a_, Result::intermediate},
+        {h, a_, y, {t, {1.0, h / 2, h * h / 6, h * h * h / 24}}, y, Result::step},
+    }};
     if (rate.empty()) {
-      op.fma(h / 4, y, y, {t, {1.0, 0.0, 0.0, 0.0}}, a_, Result::intermediate);
+      op.chain(sweeps);
     } else {
       for (std::size_t i = 0; i < y.size(); ++i) a_[i] = y[i] + h / 4 * rate[i];
+      op.chain(std::span(sweeps).subspan(1));
     }
-    op.fma(h / 3, a_, y, {t, {1.0, h / 4, 0.0, 0.0}}, b_, Result::intermediate);
-    op.fma(h / 2, b_, y, {t, {1.0, h / 3, h * h / 12, 0.0}}, a_, Result::intermediate);
-    op.fma(h, a_, y, {t, {1.0, h / 2, h * h / 6, h * h * h / 24}}, y, Result::step);
   }
   std::string_view name() const override { return "rk4"; }
   int order() const override { return 4; }

@@ -153,6 +153,52 @@ TEST_P(Kernels, GiveOneRunOverWholeScenes) {
   EXPECT_EQ(csr.counters().steps, edge.counters().steps);
 }
 
+// Large enough for several blocks, so that the sweeps of a step follow each other through the mesh.
+TEST(EdgeBody, SweepsThatFollowEachOtherGiveTheSameStep) {
+  Scene scene;
+  scene.mesh = rectangle({2.0, 1.0}, 61, 41, Diagonal::alternating);
+  scene.material = {7, 5, 4, 2, 0.2, Mass::lumped};
+  scene.body_acceleration = {0.1, -0.2};
+  const auto& groups = scene.mesh.edge_groups;
+  scene.fixes.push_back({nodes_of(groups.at("left")), Axis::both, {}, ""});
+  scene.moves.push_back({nodes_of(groups.at("right")),
+                         Axis::both,
+                         {},
+                         {{0, {0, 0}, {}}, {1, {0.1, 0.05}, {}}},
+                         Profile::smooth,
+                         ""});
+  scene.tractions.push_back({groups.at("top"), {{0, {0, -1}}, {1, {2, 0}}}, {}, ""});
+  scene.time.duration = 1.0;
+  ASSERT_GE(EdgeForm(scene.mesh).blocks.size(), 6u);
+  Simulation csr(scene, {.kernel = Kernel::csr}), edge(scene, {.kernel = Kernel::edge});
+  ASSERT_FALSE(csr.advance(0.2));
+  ASSERT_FALSE(edge.advance(0.2));
+  const auto near = [](std::span<const double> a, std::span<const double> b) {
+    return difference({a.begin(), a.end()}, {b.begin(), b.end()}, 0, a.size());
+  };
+  EXPECT_LT(near(csr.u(), edge.u()), 1e-12);
+  EXPECT_LT(near(csr.v(), edge.v()), 1e-12);
+  EXPECT_LT(near(csr.w_lambda(), edge.w_lambda()), 1e-12);
+  EXPECT_LT(near(csr.w_mu(), edge.w_mu()), 1e-12);
+  const Energies a = csr.energies(), b = edge.energies();
+  EXPECT_NEAR(a.kinetic, b.kinetic, 1e-11 * a.kinetic);
+  EXPECT_NEAR(a.stored, b.stored, 1e-11 * a.stored);
+  EXPECT_NEAR(a.dissipated, b.dissipated, 1e-11 * a.dissipated);
+  EXPECT_NEAR(a.work, b.work, 1e-11 * a.work);
+}
+
+TEST(Energies, WhereNotAskedForAreNotANumberAndChangeNothing) {
+  const Scene scene = paper_beam(Mass::lumped);
+  Simulation with(scene), without(scene, {.energies = false});
+  ASSERT_FALSE(with.advance(1.5));
+  ASSERT_FALSE(without.advance(1.5));
+  EXPECT_TRUE(std::isnan(without.energies().dissipated));
+  EXPECT_TRUE(std::isnan(without.energies().work));
+  EXPECT_EQ(with.energies().kinetic, without.energies().kinetic);
+  EXPECT_EQ(with.energies().stored, without.energies().stored);
+  for (std::size_t i = 0; i < with.u().size(); ++i) EXPECT_EQ(with.u()[i], without.u()[i]);
+}
+
 INSTANTIATE_TEST_SUITE_P(Levels, Kernels,
                          testing::Values(SimdLevel::baseline, SimdLevel::avx2, SimdLevel::avx512),
                          [](const auto& c) { return std::string(name_of(c.param)); });

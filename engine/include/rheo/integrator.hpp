@@ -33,6 +33,21 @@ class LinearOperator {
   // out = base + h (A x + forcing); out may be base, not x.
   virtual void fma(double h, std::span<const double> x, std::span<const double> base, const Forcing& forcing,
                    std::span<double> out, Result result) = 0;
+
+  // One fma with its arguments.
+  struct Sweep {
+    double h = 0.0;
+    std::span<const double> x, base;
+    Forcing forcing;
+    std::span<double> out;
+    Result result = Result::intermediate;
+  };
+  // Sweeps in a row, each but the first on the result of the one before; a sweep may write where the one
+  // before it read, and only the last may write to the base that all share. An operator may let them follow
+  // each other closely through its data instead of one after the other; the result is the same.
+  virtual void chain(std::span<const Sweep> sweeps) {
+    for (const Sweep& s : sweeps) fma(s.h, s.x, s.base, s.forcing, s.out, s.result);
+  }
 };
 
 class Integrator {

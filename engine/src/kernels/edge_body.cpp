@@ -5,6 +5,31 @@
 #include <cmath>
 
 namespace rheo {
+namespace {
+
+// Number of the node that an item belongs to.
+std::size_t node_of(const EdgeForm::Corner& corner) {
+  return static_cast<std::size_t>(corner.node);
+}
+template <class Item>
+std::size_t node_of(const Item& item) {
+  return item.slot / 2;
+}
+
+// Where each block's items begin in a list sorted by node, and the list's end.
+template <class Item>
+std::vector<std::size_t> block_begins(const EdgeForm& form, const std::vector<Item>& items) {
+  std::vector<std::size_t> begins;
+  for (const EdgeForm::Block& block : form.blocks) {
+    const auto at = std::lower_bound(items.begin(), items.end(), static_cast<std::size_t>(block.first_node),
+                                     [](const Item& item, std::size_t node) { return node_of(item) < node; });
+    begins.push_back(static_cast<std::size_t>(at - items.begin()));
+  }
+  begins.push_back(items.size());
+  return begins;
+}
+
+}  // namespace
 
 EdgeBody::EdgeBody(const Mesh& mesh, const Model& model, SimdLevel level)
     : Body(model, 0.0), form_(mesh), sweep_(sweep_function(level)) {
@@ -18,6 +43,7 @@ EdgeBody::EdgeBody(const Mesh& mesh, const Model& model, SimdLevel level)
   mass_.resize(2 * n);
   for (std::size_t k = 0; k < n; ++k) mass_[2 * k] = mass_[2 * k + 1] = model.node_mass[form_.mesh_node[k]];
 
+  corner_begin_ = block_begins(form_, form_.corners);
   const Material& m = model.material;
   for (int axis = 0; axis < 2; ++axis) {
     material_.growth[axis] = m.lambda_ela;
@@ -64,6 +90,9 @@ void EdgeBody::enter(const Interval& interval, const Vector& base) {
     held_.push_back({slot(h.dof), h});
     inverse_mass_[held_.back().slot] = 0.0;
   }
+  const auto by_slot = [](const auto& x, const auto& z) { return x.slot < z.slot; };
+  std::sort(held_.begin(), held_.end(), by_slot);
+  held_begin_ = block_begins(form_, held_);
   loads_.clear();
   for (int dof = 0; dof < static_cast<int>(model_.layout.part); ++dof) {
     const double force = interval.force[dof];
@@ -72,6 +101,8 @@ void EdgeBody::enter(const Interval& interval, const Vector& base) {
     const std::size_t s = slot(dof);
     loads_.push_back({s, inverse_mass_[s] * force, inverse_mass_[s] * slope, force, slope});
   }
+  std::sort(loads_.begin(), loads_.end(), by_slot);
+  load_begin_ = block_begins(form_, loads_);
 }
 
 void EdgeBody::impose_prescribed(double t) {
@@ -82,41 +113,64 @@ void EdgeBody::impose_prescribed(double t) {
   }
 }
 
-void EdgeBody::add_boundary(double h, const double* x_p, double* out_v) const {
+void EdgeBody::add_boundary(double h, const double* x_p, double* out_v, std::size_t first,
+                            std::size_t last) const {
   const double scale = h * form_.quarter_thickness;
   const auto difference = [&](const EdgeForm::Corner& c, std::size_t axis) {  // of w_lambda - w_mu
     const double* next = x_p + 4 * static_cast<std::size_t>(c.next) + axis;
     const double* previous = x_p + 4 * static_cast<std::size_t>(c.previous) + axis;
     return (next[0] - previous[0]) - (next[2] - previous[2]);
   };
-  for (const EdgeForm::Corner& c : form_.corners) {
+  for (std::size_t k = first; k < last; ++k) {
+    const EdgeForm::Corner& c = form_.corners[k];
     const std::size_t i = 2 * static_cast<std::size_t>(c.node);
     out_v[i] -= scale * inverse_mass_[i] * difference(c, 1);
     out_v[i + 1] += scale * inverse_mass_[i + 1] * difference(c, 0);
   }
 }
 
-void EdgeBody::fma(double h, std::span<const double> x, std::span<const double> base, const Forcing& forcing,
-                   std::span<double> out, Result result) {
-  ++counters_.force_evaluations;
-  const SweepArrays arrays{x.data() + p(),    x.data() + v(),
-                           base.data() + p(), base.data() + v(),
-                           out.data() + p(),  out.data() + v(),
-                           base.data() + u(), result == Result::step ? out.data() + u() : nullptr};
-  sweep_(form_, inverse_mass_.data(), material_, h, arrays, 0, static_cast<std::int32_t>(form_.runs.size()));
-  double* out_v = out.data() + v();
-  add_boundary(h, x.data() + p(), out_v);
+void EdgeBody::sweep_block(const Sweep& sweep, std::size_t block) const {
+  const EdgeForm::Block& b = form_.blocks[block];
+  const double h = sweep.h;
+  const Forcing& forcing = sweep.forcing;
+  const SweepArrays arrays{
+      sweep.x.data() + p(),    sweep.x.data() + v(),
+      sweep.base.data() + p(), sweep.base.data() + v(),
+      sweep.out.data() + p(),  sweep.out.data() + v(),
+      sweep.base.data() + u(), sweep.result == Result::step ? sweep.out.data() + u() : nullptr};
+  sweep_(form_, inverse_mass_.data(), material_, h, arrays, b.first_run, b.last_run);
+  double* out_v = sweep.out.data() + v();
+  add_boundary(h, sweep.x.data() + p(), out_v, corner_begin_[block], corner_begin_[block + 1]);
   const double constant = forcing.weight[0];
   const double linear = forcing.weight[0] * (forcing.t - interval_->begin) + forcing.weight[1];
-  for (const Load& load : loads_)
-    out_v[load.slot] += h * (constant * load.acceleration + linear * load.slope);
-  if (interval_->moving) {
-    for (const Held& held : held_) {
-      double a = 0.0;
-      for (int k = 0; k < 4; ++k) {
-        if (forcing.weight[k] != 0.0) a += forcing.weight[k] * prescribed(held.dof, forcing.t, 2 + k);
-      }
-      out_v[held.slot] += h * a;
+  for (std::size_t k = load_begin_[block]; k < load_begin_[block + 1]; ++k) {
+    out_v[loads_[k].slot] += h * (constant * loads_[k].acceleration + linear * loads_[k].slope);
+  }
+  if (!interval_->moving) return;
+  for (std::size_t k = held_begin_[block]; k < held_begin_[block + 1]; ++k) {
+    double a = 0.0;
+    for (int d = 0; d < 4; ++d) {
+      if (forcing.weight[d] != 0.0) a += forcing.weight[d] * prescribed(held_[k].dof, forcing.t, 2 + d);
+    }
+    out_v[held_[k].slot] += h * a;
+  }
+}
+
+void EdgeBody::fma(double h, std::span<const double> x, std::span<const double> base, const Forcing& forcing,
+                   std::span<double> out, Result result) {
+  const Sweep sweep{h, x, base, forcing, out, result};
+  chain({&sweep, 1});
+}
+
+// Sweep k takes block b as soon as sweep k - 1 has done block b + 1: all sweeps pass while the block is in
+// cache. What sweep k overwrites (the argument of sweep k - 1, or the base) was read there, and a block
+// further, before.
+void EdgeBody::chain(std::span<const Sweep> sweeps) {
+  counters_.force_evaluations += static_cast<std::int64_t>(sweeps.size());
+  const std::size_t blocks = form_.blocks.size();
+  for (std::size_t turn = 0; turn < blocks + sweeps.size() - 1; ++turn) {
+    for (std::size_t k = 0; k < sweeps.size() && k <= turn; ++k) {
+      if (turn - k < blocks) sweep_block(sweeps[k], turn - k);
     }
   }
 }
@@ -129,7 +183,7 @@ void EdgeBody::rheological_force(const double* x_p, Vector& force) {
                            unused.data(), force.data(),  nullptr,       nullptr};
   sweep_(form_, ones_.data(), none, -1.0, arrays, 0, static_cast<std::int32_t>(form_.runs.size()));
   std::swap(ones_, inverse_mass_);
-  add_boundary(-1.0, x_p, force.data());
+  add_boundary(-1.0, x_p, force.data(), 0, form_.corners.size());
   std::swap(ones_, inverse_mass_);
 }
 

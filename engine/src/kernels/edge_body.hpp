@@ -22,6 +22,7 @@ class EdgeBody final : public Body {
   void impose_prescribed(double t) override;
   void fma(double h, std::span<const double> x, std::span<const double> base, const Forcing& forcing,
            std::span<double> out, Result result) override;
+  void chain(std::span<const Sweep> sweeps) override;
   EnergySample sample(double t) override;
   void reaction(double t, Vector& out) override;
 
@@ -34,8 +35,10 @@ class EdgeBody final : public Body {
     return 2 * static_cast<std::size_t>(form_.kernel_node[dof / 2]) + dof % 2;
   }
 
-  // h x (boundary terms of F / m) subtracted from out_v.
-  void add_boundary(double h, const double* x_p, double* out_v) const;
+  // One sweep over one block.
+  void sweep_block(const Sweep& sweep, std::size_t block) const;
+  // h x (boundary terms of F / m) subtracted from out_v, for some of the corners.
+  void add_boundary(double h, const double* x_p, double* out_v, std::size_t first, std::size_t last) const;
   // F of the residual forces p in the kernel's order.
   void rheological_force(const double* x_p, Vector& force);
 
@@ -59,6 +62,8 @@ class EdgeBody final : public Body {
     HeldDof dof;
   };
   std::vector<Held> held_;
+  // Where each block's corners, loads and held degrees of freedom begin; one more at the end.
+  std::vector<std::size_t> corner_begin_, load_begin_, held_begin_;
   std::vector<double> p_rate_;
   Vector force_, force_rate_;
 };

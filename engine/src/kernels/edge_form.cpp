@@ -8,6 +8,8 @@
 namespace rheo {
 namespace {
 
+constexpr std::int32_t smallest_block =
+    256;                             // nodes: shorter ones cost more in turns than they keep in cache
 constexpr int valence_window = 128;  // nodes that may change places to lengthen runs of equal valence
 
 struct DirectedEdge {
@@ -121,20 +123,31 @@ EdgeForm::EdgeForm(const Mesh& mesh) : nodes(mesh.node_count()), quarter_thickne
   kernel_node.resize(n);
   for (std::size_t k = 0; k < n; ++k) kernel_node[mesh_node[k]] = static_cast<std::int32_t>(k);
 
+  for (std::size_t k = 0; k < n; ++k) {
+    for (std::size_t e = begin[mesh_node[k]]; e < begin[mesh_node[k] + 1]; ++e) {
+      bandwidth = std::max(bandwidth, std::abs(kernel_node[edges[e].to] - static_cast<std::int32_t>(k)));
+    }
+  }
+  const std::int32_t block_nodes = std::max(bandwidth, smallest_block);
+
   offset.reserve(edges.size());
   s.reserve(3 * edges.size());
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::int32_t k = 0; k < nodes; ++k) {
     const std::int32_t node = mesh_node[k];
-    if (runs.empty() || runs.back().valence != valence(node)) {
-      runs.push_back({static_cast<std::int32_t>(k), static_cast<std::int32_t>(k), valence(node),
-                      static_cast<std::int64_t>(offset.size())});
+    const bool new_block = blocks.empty() || k - blocks.back().first_node == block_nodes;
+    if (new_block) {
+      const auto run = static_cast<std::int32_t>(runs.size());
+      blocks.push_back({run, run, k, k});
+    }
+    if (new_block || runs.back().valence != valence(node)) {
+      runs.push_back({k, k, valence(node), static_cast<std::int64_t>(offset.size())});
     }
     ++runs.back().last;
+    blocks.back().last_run = static_cast<std::int32_t>(runs.size());
+    blocks.back().last_node = k + 1;
     for (std::size_t e = begin[node]; e < begin[node + 1]; ++e) {
-      const std::int32_t other = kernel_node[edges[e].to];
-      offset.push_back(4 * static_cast<std::uint32_t>(other));
+      offset.push_back(4 * static_cast<std::uint32_t>(kernel_node[edges[e].to]));
       s.insert(s.end(), {edges[e].s0, edges[e].s1, edges[e].s2});
-      bandwidth = std::max(bandwidth, std::abs(other - static_cast<std::int32_t>(k)));
     }
   }
 
@@ -148,6 +161,7 @@ EdgeForm::EdgeForm(const Mesh& mesh) : nodes(mesh.node_count()), quarter_thickne
     // The sum over a node's passages does not depend on how ends and beginnings are paired.
     corners.push_back({kernel_node[node], kernel_node[edge[0]], kernel_node[next[node][used[node]++]]});
   }
+  std::sort(corners.begin(), corners.end(), [](const Corner& a, const Corner& b) { return a.node < b.node; });
 }
 
 }  // namespace rheo

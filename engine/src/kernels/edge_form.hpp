@@ -55,9 +55,17 @@ struct EdgeForm {
   std::vector<Corner> corners;
   double quarter_thickness = 0.0;  // h / 4
 
-  // For stages that follow each other through the mesh: a node's neighbours have numbers within this
-  // distance.
+  // A node's neighbours have numbers within this distance.
   std::int32_t bandwidth = 0;
+
+  // Stretches of whole runs, none (but the last) shorter than the bandwidth: a node's neighbours lie in its
+  // own or a neighbouring block, so that sweeps can follow each other through the mesh at a distance of one
+  // block.
+  struct Block {
+    std::int32_t first_run = 0, last_run = 0;
+    std::int32_t first_node = 0, last_node = 0;
+  };
+  std::vector<Block> blocks;
 };
 
 }  // namespace rheo
