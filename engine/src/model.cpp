@@ -55,43 +55,57 @@ SparseMatrix connection_matrix(const Mesh& mesh, Tensor tensor) {
 }
 
 // Largest eigenvalue of M_e^-1 K_e. B annihilates translations, so that M_e^-1 acts as 3 / (density h T)
-// (lumped) or 12 / (density h T) (consistent), and the eigenvalues are those of the 3 x 3 product D B B^T.
+// (lumped) or 12 / (density h T) (consistent), and the eigenvalues are those of the 3 x 3 product P = D G, G
+// = B B^T: real, by the trigonometric solution of the characteristic cubic.
 double element_eigenvalue(const Mesh& mesh, int e, const Material& material) {
   const auto q = corners(mesh, mesh.triangles[e]);
-  const double area2 = 2.0 * signed_area(mesh, e);
-  Eigen::Matrix<double, 3, 6> b = Eigen::Matrix<double, 3, 6>::Zero();
-  // Dimensionless: scaled by the longest side, so that tiny and huge triangles lose nothing.
-  double longest = 0.0;
-  for (const Corner& corner : q) longest = std::max(longest, std::hypot(corner.b, corner.c));
-  for (int i = 0; i < 3; ++i) {
-    const double bi = q[i].b / longest;
-    const double ci = q[i].c / longest;
-    b(0, 2 * i) = bi;
-    b(1, 2 * i + 1) = ci;
-    b(2, 2 * i) = ci;
-    b(2, 2 * i + 1) = bi;
-  }
   const double la = material.lambda_ela;
   const double mu = material.mu_ela;
   const double largest = std::max(la, mu);
   if (largest == 0.0) return 0.0;
-  Eigen::Matrix3d d = Eigen::Matrix3d::Zero();
-  d << la + 2 * mu, la, 0, la, la + 2 * mu, 0, 0, 0, mu;
-  const Eigen::Matrix<double, 6, 6> k = b.transpose() * (d / largest) * b;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> solver(k, Eigen::EigenvaluesOnly);
-  const double scale = longest / area2;
+  // Dimensionless: tiny and huge triangles and moduli lose nothing.
+  double longest = 0.0;
+  for (const Corner& corner : q) longest = std::max(longest, std::hypot(corner.b, corner.c));
+  double bb = 0.0, bc = 0.0, cc = 0.0;
+  for (const Corner& corner : q) {
+    bb += corner.b * corner.b;
+    bc += corner.b * corner.c;
+    cc += corner.c * corner.c;
+  }
+  bb /= longest * longest;
+  bc /= longest * longest;
+  cc /= longest * longest;
+  const double d1 = (la + 2 * mu) / largest, d2 = la / largest, d3 = mu / largest;
+  // Rows of B: (b, 0), (0, c), (c, b) at each corner.
+  Eigen::Matrix3d g, d;
+  g << bb, 0, bc, 0, cc, bc, bc, bc, bb + cc;
+  d << d1, d2, 0, d2, d1, 0, 0, 0, d3;
+  const Eigen::Matrix3d p = d * g;
+  const double mean = p.trace() / 3;
+  const Eigen::Matrix3d shifted = p - mean * Eigen::Matrix3d::Identity();
+  const double spread = std::sqrt(std::max(0.0, (shifted * shifted).trace() / 6));
+  double top = mean;
+  if (spread > 0.0) {
+    const double half = shifted.determinant() / (2 * spread * spread * spread);
+    top += 2 * spread * std::cos(std::acos(std::clamp(half, -1.0, 1.0)) / 3);
+  }
+  const double scale = longest / (2.0 * signed_area(mesh, e));
   const double factor = material.mass == Mass::lumped ? 3.0 : 12.0;
-  return solver.eigenvalues().maxCoeff() * scale * scale * factor * largest / material.density;
+  return top * scale * scale * factor * largest / material.density;
 }
 
 }  // namespace
 
-Model::Model(const Mesh& mesh, const Material& m) : material(m) {
+Model::Model(const Mesh& mesh, const Material& m, Assembly assembly) : material(m) {
   layout.part = 2 * mesh.points.size();
   layout.lambda = m.lambda_ela > 0.0;
   layout.mu = m.mu_ela > 0.0;
-  if (layout.lambda) j_lambda = connection_matrix(mesh, Tensor::lambda);
-  if (layout.mu) j_mu = connection_matrix(mesh, Tensor::mu);
+  if (assembly == Assembly::edges) {
+    edges = std::make_unique<EdgeForce>(std::make_shared<EdgeForm>(mesh), best_simd_level());
+  } else {
+    if (layout.lambda) j_lambda = connection_matrix(mesh, Tensor::lambda);
+    if (layout.mu) j_mu = connection_matrix(mesh, Tensor::mu);
+  }
 
   node_mass = Vector::Zero(mesh.node_count());
   std::vector<Triplet> entries;
@@ -128,6 +142,11 @@ void Model::multiply_mass(const double* x, double* out) const {
 
 Vector Model::stiffness(const Vector& x) const {
   Vector result = Vector::Zero(x.size());
+  if (edges) {
+    const auto size = static_cast<std::size_t>(x.size());
+    edges->stiffness(material.lambda_ela, material.mu_ela, {x.data(), size}, {result.data(), size});
+    return result;
+  }
   if (layout.lambda) result += material.lambda_ela * (j_lambda * x);
   if (layout.mu) result += material.mu_ela * (j_mu * x);
   return result;

@@ -12,7 +12,9 @@
 
 #include <Eigen/SparseCore>
 #include <cstddef>
+#include <memory>
 
+#include "kernels/edge_force.hpp"
 #include "rheo/scene.hpp"
 
 namespace rheo {
@@ -35,8 +37,11 @@ struct Layout {
   std::size_t size() const { return (2 + (lambda ? 1 : 0) + (mu ? 1 : 0)) * part; }
 };
 
+// Whether J_lambda and J_mu are assembled, or left to the edge form.
+enum class Assembly { matrices, edges };
+
 struct Model {
-  Model(const Mesh& mesh, const Material& material);
+  Model(const Mesh& mesh, const Material& material, Assembly assembly = Assembly::matrices);
 
   // out = M x for x of 2n numbers.
   void multiply_mass(const double* x, double* out) const;
@@ -45,8 +50,9 @@ struct Model {
 
   Material material;
   Layout layout;
-  SparseMatrix j_lambda;  // empty where lambda_ela = 0
+  SparseMatrix j_lambda;  // empty where lambda_ela = 0, and with Assembly::edges
   SparseMatrix j_mu;
+  std::unique_ptr<EdgeForce> edges;  // with Assembly::edges
   Vector node_mass;
   SparseMatrix mass;
 

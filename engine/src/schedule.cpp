@@ -16,6 +16,11 @@ constexpr std::size_t spectra_taken = 8;  // beyond it the free body's frequency
 
 }  // namespace
 
+bool has_columns(const Scene& scene) {
+  const bool held = !scene.fixes.empty() || !scene.moves.empty();
+  return !scene.constraints.empty() || (scene.time.constraints == ConstraintMethod::baumgarte && held);
+}
+
 Schedule::Schedule(const Scene& scene, const Model& model)
     : scene_(scene), model_(model), events_(event_times(scene)), holders_(holders_of(scene)) {
   for (const Traction& traction : scene.tractions) {
@@ -77,11 +82,6 @@ std::shared_ptr<const ConstraintSolver> Schedule::solver(const Signature& active
   return known != solvers_.end() ? known->second : make_solver(active);
 }
 
-bool Schedule::has_columns() const {
-  return !scene_.constraints.empty() ||
-         (scene_.time.constraints == ConstraintMethod::baumgarte && !holders_.empty());
-}
-
 void Schedule::make_spectrum(const std::vector<Signature>& signatures) {
   const Material& material = scene_.material;
   Spectrum& s = spectrum_;
@@ -104,7 +104,7 @@ void Schedule::make_spectrum(const std::vector<Signature>& signatures) {
     include(ConstraintSolver(model_, {}, {}));
   }
   s.omega_max = std::min(omega, s.element_bound);
-  if (has_columns()) s.baumgarte = scene_.time.baumgarte;
+  if (has_columns(scene_)) s.baumgarte = scene_.time.baumgarte;
 }
 
 Interval Schedule::interval(std::size_t i) {

@@ -14,6 +14,9 @@
 
 namespace rheo {
 
+// Whether some constraint of the scene is not eliminated but solved for (equation 4).
+bool has_columns(const Scene& scene);
+
 class Schedule {
  public:
   // Both must outlive this.
@@ -25,9 +28,6 @@ class Schedule {
 
   Interval interval(std::size_t i);
   std::vector<Simulation::ActiveTraction> active_tractions(std::size_t i, double t) const;
-
-  // Whether some constraint is not eliminated but solved for (equation 4).
-  bool has_columns() const;
 
   // Over all sets of constraints that the scene goes through.
   Spectrum spectrum() const { return spectrum_; }

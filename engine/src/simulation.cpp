@@ -34,15 +34,26 @@ std::int64_t steps_in(double length, double bound) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / bound * (1.0 - 1e-12))));
 }
 
+// The fastest kernel that the scene's mass and constraints allow, unless one is asked for.
+Assembly assembly_for(const Scene& scene, Kernel kernel) {
+  const bool edges = scene.material.mass == Mass::lumped && !has_columns(scene);
+  if (kernel == Kernel::edge && !edges) {
+    throw Error(Error::Kind::input,
+                "kernel edge needs mass = \"lumped\" and constraints = \"auto\" without [[constraint]]: use "
+                "auto or csr");
+  }
+  return edges && kernel != Kernel::csr ? Assembly::edges : Assembly::matrices;
+}
+
 }  // namespace
 
 struct Simulation::Impl {
   Impl(Scene&& s, const SimulationOptions& options)
       : scene(std::move(s)),
-        model(validated(scene).mesh, scene.material),
+        model(validated(scene).mesh, scene.material, assembly_for(scene, options.kernel)),
         schedule(scene, model),
         spectrum(schedule.spectrum()),
-        body(make_body(options)),
+        body(make_body()),
         integrator(make_integrator(scene.time.integrator, body->size())),
         stride(options.energies ? 1 : unasked_stride),
         y(model.layout.size(), 0.0),
@@ -93,17 +104,8 @@ struct Simulation::Impl {
     }
   }
 
-  // The fastest kernel that the scene's mass and constraints allow, unless one is asked for.
-  std::unique_ptr<Body> make_body(const SimulationOptions& options) const {
-    const bool edges = scene.material.mass == Mass::lumped && !schedule.has_columns();
-    if (options.kernel == Kernel::edge && !edges) {
-      throw Error(Error::Kind::input,
-                  "kernel edge needs mass = \"lumped\" and constraints = \"auto\" without [[constraint]]: "
-                  "use auto or csr");
-    }
-    if (edges && options.kernel != Kernel::csr) {
-      return std::make_unique<EdgeBody>(scene.mesh, model, best_simd_level());
-    }
+  std::unique_ptr<Body> make_body() const {
+    if (model.edges) return std::make_unique<EdgeBody>(model, *model.edges);
     return std::make_unique<AssembledBody>(model, scene.time.baumgarte);
   }
 

@@ -161,8 +161,9 @@ void step_edge(benchmark::State& state) {
     return;
   }
   const Case& c = case_of(static_cast<int>(state.range(0)));
-  rheo::EdgeBody body(c.scene.mesh, *c.model, level);
-  const rheo::EdgeForm form(c.scene.mesh);
+  const rheo::EdgeForce force(std::make_shared<rheo::EdgeForm>(c.scene.mesh), level);
+  rheo::EdgeBody body(*c.model, force);
+  const rheo::EdgeForm& form = force.form();
   const auto edges = static_cast<double>(form.offset.size());
   const auto nodes = static_cast<double>(form.nodes);
   // A sweep reads an edge's 3 numbers and index, and a node's x, base and inverse mass, and writes out; u

@@ -9,6 +9,7 @@
 #include "assembled_body.hpp"
 #include "kernels/edge_body.hpp"
 #include "schedule.hpp"
+#include "support/exact.hpp"
 #include "support/scenes.hpp"
 
 namespace rheo::test {
@@ -118,7 +119,8 @@ TEST_P(Kernels, AgreeWithTheAssembledForm) {
     Vector base = Vector::Zero(static_cast<Eigen::Index>(model.layout.part));
 
     AssembledBody assembled(model, 0.0);
-    EdgeBody edges(scene.mesh, model, GetParam());
+    const EdgeForce force(std::make_shared<EdgeForm>(scene.mesh), GetParam());
+    EdgeBody edges(model, force);
     const Outcome a = outcome(assembled, interval, base, y, 0.7);
     const Outcome b = outcome(edges, interval, base, y, 0.7);
     for (std::size_t begin = 0; begin < y.size(); begin += model.layout.part) {
@@ -217,6 +219,43 @@ TEST(EdgeForm, RenumbersEveryNodeOnceAndKeepsNeighboursNear) {
   EXPECT_EQ(edges, 2 * (mesh.node_count() + mesh.triangle_count() - 1));
   // A level of the breadth-first order is about a row; swaps inside windows add to it.
   EXPECT_LT(form.bandwidth, 3 * 60 + 2 * 128);
+}
+
+TEST(EdgeForce, IsTheStiffnessOfTheAssembledForm) {
+  std::mt19937 random(3);
+  const Mesh mesh = random_mesh(random);
+  const Material material{7, 5, 4, 2, 0.2, Mass::lumped};
+  const Model matrices(mesh, material), edges(mesh, material, Assembly::edges);
+  const Vector x = Vector::Random(2 * mesh.node_count());
+  const Vector expected = matrices.stiffness(x);
+  EXPECT_LT((edges.stiffness(x) - expected).norm(), 1e-13 * expected.norm());
+}
+
+TEST(Model, ElementBoundIsTheLargestEigenvalueOfAnElement) {
+  std::mt19937 random(4);
+  for (int k = 0; k < 20; ++k) {
+    Mesh mesh = random_mesh(random);
+    const Material material{k % 3 == 0 ? 0.0 : 7.0 * k,
+                            k % 3 == 1 ? 0.0 : 5.0,
+                            4,
+                            2,
+                            0.2,
+                            k % 2 == 0 ? Mass::lumped : Mass::consistent};
+    double largest = 0.0;
+    for (const Triangle& t : mesh.triangles) {
+      Mesh one;
+      one.points = {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
+      one.triangles = {{0, 1, 2}};
+      one.thickness = mesh.thickness;
+      prepare(one);
+      const DenseMatrices m = dense_matrices(one, material);
+      const Eigen::MatrixXd k_e = material.lambda_ela * m.j_lambda + material.mu_ela * m.j_mu;
+      const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(k_e, m.mass,
+                                                                             Eigen::EigenvaluesOnly);
+      largest = std::max(largest, solver.eigenvalues().maxCoeff());
+    }
+    EXPECT_NEAR(Model(mesh, material).element_omega, std::sqrt(largest), 1e-9 * std::sqrt(largest));
+  }
 }
 
 TEST(Kernel, ThatTheSceneDoesNotAllowIsRefused) {

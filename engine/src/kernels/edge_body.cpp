@@ -31,12 +31,10 @@ std::vector<std::size_t> block_begins(const EdgeForm& form, const std::vector<It
 
 }  // namespace
 
-EdgeBody::EdgeBody(const Mesh& mesh, const Model& model, SimdLevel level)
-    : Body(model, 0.0), form_(mesh), sweep_(sweep_function(level)) {
+EdgeBody::EdgeBody(const Model& model, const EdgeForce& force)
+    : Body(model, 0.0), edge_force_(force), form_(force.form()) {
   const auto n = static_cast<std::size_t>(form_.nodes);
   state_.assign(8 * n, 0.0);
-  zeros_.assign(4 * n, 0.0);
-  ones_.assign(2 * n, 1.0);
   p_rate_.assign(4 * n, 0.0);
   force_.setZero(static_cast<Eigen::Index>(2 * n));
   force_rate_ = force_;
@@ -113,22 +111,6 @@ void EdgeBody::impose_prescribed(double t) {
   }
 }
 
-void EdgeBody::add_boundary(double h, const double* x_p, double* out_v, std::size_t first,
-                            std::size_t last) const {
-  const double scale = h * form_.quarter_thickness;
-  const auto difference = [&](const EdgeForm::Corner& c, std::size_t axis) {  // of w_lambda - w_mu
-    const double* next = x_p + 4 * static_cast<std::size_t>(c.next) + axis;
-    const double* previous = x_p + 4 * static_cast<std::size_t>(c.previous) + axis;
-    return (next[0] - previous[0]) - (next[2] - previous[2]);
-  };
-  for (std::size_t k = first; k < last; ++k) {
-    const EdgeForm::Corner& c = form_.corners[k];
-    const std::size_t i = 2 * static_cast<std::size_t>(c.node);
-    out_v[i] -= scale * inverse_mass_[i] * difference(c, 1);
-    out_v[i + 1] += scale * inverse_mass_[i + 1] * difference(c, 0);
-  }
-}
-
 void EdgeBody::sweep_block(const Sweep& sweep, std::size_t block) const {
   const EdgeForm::Block& b = form_.blocks[block];
   const double h = sweep.h;
@@ -138,9 +120,10 @@ void EdgeBody::sweep_block(const Sweep& sweep, std::size_t block) const {
       sweep.base.data() + p(), sweep.base.data() + v(),
       sweep.out.data() + p(),  sweep.out.data() + v(),
       sweep.base.data() + u(), sweep.result == Result::step ? sweep.out.data() + u() : nullptr};
-  sweep_(form_, inverse_mass_.data(), material_, h, arrays, b.first_run, b.last_run);
+  edge_force_.sweep()(form_, inverse_mass_.data(), material_, h, arrays, b.first_run, b.last_run);
   double* out_v = sweep.out.data() + v();
-  add_boundary(h, sweep.x.data() + p(), out_v, corner_begin_[block], corner_begin_[block + 1]);
+  edge_force_.subtract_boundary(h, inverse_mass_.data(), sweep.x.data() + p(), out_v, corner_begin_[block],
+                                corner_begin_[block + 1]);
   const double constant = forcing.weight[0];
   const double linear = forcing.weight[0] * (forcing.t - interval_->begin) + forcing.weight[1];
   for (std::size_t k = load_begin_[block]; k < load_begin_[block + 1]; ++k) {
@@ -173,18 +156,6 @@ void EdgeBody::chain(std::span<const Sweep> sweeps) {
       if (turn - k < blocks) sweep_block(sweeps[k], turn - k);
     }
   }
-}
-
-void EdgeBody::rheological_force(const double* x_p, Vector& force) {
-  // The sweep with unit masses and h = -1 leaves F alone in out_v.
-  static const SweepMaterial none;
-  std::vector<double> unused(zeros_.size());
-  const SweepArrays arrays{x_p,           zeros_.data(), zeros_.data(), zeros_.data(),
-                           unused.data(), force.data(),  nullptr,       nullptr};
-  sweep_(form_, ones_.data(), none, -1.0, arrays, 0, static_cast<std::int32_t>(form_.runs.size()));
-  std::swap(ones_, inverse_mass_);
-  add_boundary(-1.0, x_p, force.data(), 0, form_.corners.size());
-  std::swap(ones_, inverse_mass_);
 }
 
 // Sums over edges: x^T J_lambda w = - sum over edges of dx^T S dw, x^T J_mu w = - sum of dx^T (S + trace(S)
@@ -252,12 +223,12 @@ EnergySample EdgeBody::sample(double t) {
   }
   if (interval_->moving) {
     // R = m b'' + F - f and its slope with F(w') for F(w).
-    rheological_force(xp, force_);
+    edge_force_.apply(xp, force_.data());
     for (std::size_t i = 0; i < p_rate_.size(); ++i) {
       const std::size_t k = i % 4;
       p_rate_[i] = material_.growth[k] * xv[i / 4 * 2 + k % 2] - material_.decay[k] * xp[i];
     }
-    rheological_force(p_rate_.data(), force_rate_);
+    edge_force_.apply(p_rate_.data(), force_rate_.data());
     std::vector<double> external(mass_.size(), 0.0), external_rate(mass_.size(), 0.0);
     for (const Load& load : loads_) {
       external[load.slot] = load.force + s * load.force_slope;
@@ -276,7 +247,7 @@ EnergySample EdgeBody::sample(double t) {
 }
 
 void EdgeBody::reaction(double t, Vector& out) {
-  rheological_force(state_.data() + p(), force_);
+  edge_force_.apply(state_.data() + p(), force_.data());
   const Vector external = Body::external_force(t);
   out.setZero(static_cast<Eigen::Index>(model_.layout.part));
   for (const Held& h : held_) {

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "body.hpp"
-#include "kernels/edge_form.hpp"
-#include "kernels/edge_sweep.hpp"
+#include "kernels/edge_force.hpp"
 
 namespace rheo {
 
 class EdgeBody final : public Body {
  public:
-  EdgeBody(const Mesh& mesh, const Model& model, SimdLevel level);
+  // `force` must outlive this.
+  EdgeBody(const Model& model, const EdgeForce& force);
 
   std::string_view kernel() const override { return "edge"; }
   void load(std::span<const double> y) override;
@@ -37,17 +37,12 @@ class EdgeBody final : public Body {
 
   // One sweep over one block.
   void sweep_block(const Sweep& sweep, std::size_t block) const;
-  // h x (boundary terms of F / m) subtracted from out_v, for some of the corners.
-  void add_boundary(double h, const double* x_p, double* out_v, std::size_t first, std::size_t last) const;
-  // F of the residual forces p in the kernel's order.
-  void rheological_force(const double* x_p, Vector& force);
 
-  EdgeForm form_;
-  SweepFunction sweep_;
+  const EdgeForce& edge_force_;
+  const EdgeForm& form_;
   SweepMaterial material_;
   std::vector<double> mass_;          // n x 2, kernel order
   std::vector<double> inverse_mass_;  // n x 2, zero where held
-  std::vector<double> zeros_, ones_;
 
   // External forces by entry: only where there are any.
   struct Load {
