@@ -124,6 +124,7 @@ void print_steps(const rheo::Simulation& simulation) {
     row(fmt::format("stable {}", name_of(kind)).c_str(), "{}",
         stable_text(rheo::stable_step(spectrum, kind)));
   row("integrator", "{}", name_of(time.integrator));
+  row("kernel", "{}", simulation.kernel());
   row("step", "{:.6g} s at most ({})", simulation.step_bound(),
       time.step > 0.0 ? "as asked" : "auto: a quarter of the stable step");
   row("steps", "{} in {:g} s", simulation.planned_steps(), time.duration);
@@ -188,7 +189,7 @@ void print_cost(rheo::Simulation& simulation) {
 }  // namespace
 
 void check_scene(const Options& options) {
-  rheo::Simulation simulation(load_scene(options), {.allow_unstable = options.allow_unstable});
+  rheo::Simulation simulation(load_scene(options), options.simulation);
   const rheo::Scene& scene = simulation.scene();
   fmt::print("{}: {}\n", options.scene.string(), scene.title);
   for (const std::string& note : scene.notes) fmt::print("  note: {}\n", note);

@@ -43,7 +43,8 @@ constexpr int most_shapes = 64;
 struct Texts {
   std::string scene, folder, integrator, step, duration, frame_rate, threads;
   std::string size, color, range, backend, sheet;
-  bool vtu = false, force = false, quiet = false, allow_unstable = false;
+  std::string kernel;
+  bool vtu = false, force = false, quiet = false, allow_unstable = false, no_energies = false;
 };
 
 void add_time_options(CLI::App& command, Texts& texts) {
@@ -67,6 +68,17 @@ void add_time_options(CLI::App& command, Texts& texts) {
   command
       .add_flag("--allow-unstable", texts.allow_unstable,
                 "run a step beyond the stable limit instead of refusing it")
+      ->group(group);
+  command
+      .add_option("--kernel", texts.kernel,
+                  "way to the forces: csr (assembled matrices), edge (vectorised; lumped\n"
+                  "mass, fixed and moved nodes only) or auto, the default: the fastest\n"
+                  "that the scene allows")
+      ->type_name("NAME")
+      ->group(group);
+  command
+      .add_flag("--no-energies", texts.no_energies,
+                "leave history.csv's columns dissipated and work empty; steps cost less")
       ->group(group);
 }
 
@@ -202,7 +214,9 @@ Options read_values(const Texts& texts, const CLI::App& command) {
   if (given("--duration")) options.duration = positive_number("--duration", texts.duration, "seconds");
   if (given("--frame-rate"))
     options.frame_rate = positive_number("--frame-rate", texts.frame_rate, "outputs per second");
-  options.allow_unstable = texts.allow_unstable;
+  options.simulation.allow_unstable = texts.allow_unstable;
+  options.simulation.energies = !texts.no_energies;
+  if (given("--kernel")) options.simulation.kernel = kernel_choice("--kernel", texts.kernel);
 
   options.folder = std::filesystem::path("out") / options.scene.stem();
   if (given("--output")) {

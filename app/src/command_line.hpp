@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "rheo/scene.hpp"
+#include "rheo/simulation.hpp"
 
 namespace app {
 
@@ -42,7 +43,7 @@ struct Options {
   std::optional<int> sheet;  // shapes on the sheet; empty: 8 to 12, as suits the run
   bool vtu = false;
   bool force = false;
-  bool allow_unstable = false;
+  rheo::SimulationOptions simulation;
   bool quiet = false;
 };
 

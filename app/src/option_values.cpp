@@ -41,6 +41,12 @@ const Choices<rheo::IntegratorKind>& integrators() {
   return all;
 }
 
+const Choices<rheo::Kernel>& kernels() {
+  static const Choices<rheo::Kernel> all{
+      {"auto", rheo::Kernel::automatic}, {"csr", rheo::Kernel::csr}, {"edge", rheo::Kernel::edge}};
+  return all;
+}
+
 const Choices<rheo::ColorBy>& colors() {
   static const Choices<rheo::ColorBy> all{{"w_lambda", rheo::ColorBy::w_lambda},
                                           {"w_mu", rheo::ColorBy::w_mu},
@@ -132,6 +138,10 @@ ColorRange color_range(const std::string& option, const std::string& text) {
 
 rheo::IntegratorKind integrator_kind(const std::string& option, const std::string& text) {
   return choose(option, text, integrators());
+}
+
+rheo::Kernel kernel_choice(const std::string& option, const std::string& text) {
+  return choose(option, text, kernels());
 }
 
 rheo::ColorBy color_by(const std::string& option, const std::string& text) {

@@ -16,6 +16,7 @@ int whole_number(const std::string& option, const std::string& text, int low, in
 std::array<int, 2> picture_size(const std::string& option, const std::string& text);
 ColorRange color_range(const std::string& option, const std::string& text);
 rheo::IntegratorKind integrator_kind(const std::string& option, const std::string& text);
+rheo::Kernel kernel_choice(const std::string& option, const std::string& text);
 rheo::ColorBy color_by(const std::string& option, const std::string& text);
 DrawBackend draw_backend(const std::string& option, const std::string& text);
 

@@ -20,6 +20,7 @@ Json settings_of(const Options& options, const rheo::Simulation& simulation, con
   const rheo::TimeSettings& time = simulation.scene().time;
   Json json;
   json["integrator"] = name_of(time.integrator);
+  json["kernel"] = simulation.kernel();
   json["step_asked"] = time.step;
   json["step_bound"] = number(simulation.step_bound());
   json["largest_step"] = number(report.largest_step);

@@ -139,7 +139,7 @@ void run_scene(const Options& options) {
   rheo::Scene scene = load_scene(options);
   report.scene_text = file_text(options.scene);
   timed.emplace(seconds.build);
-  rheo::Simulation simulation(std::move(scene), {.allow_unstable = options.allow_unstable});
+  rheo::Simulation simulation(std::move(scene), options.simulation);
   timed.emplace(seconds.draw);
   std::optional<Sequence> sequence;
   if (options.command == Command::render) sequence.emplace(simulation.scene().picture, options);

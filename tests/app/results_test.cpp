@@ -151,6 +151,31 @@ TEST_F(Results, OverridesChangeTheRun) {
   EXPECT_NEAR(euler, rk4, 0.02 * std::abs(rk4));  // first order: the error is about the step times omega
 }
 
+TEST_F(Results, DoNotDependOnTheKernel) {
+  const std::string lumped = small_beam() + "\n";
+  ASSERT_EQ(lumped.find("consistent"), std::string::npos);
+  run("csr", {"--kernel", "csr"});
+  run("edge", {"--kernel", "edge"});
+  const auto json = nlohmann::json::parse(read_text(folder() / "edge/run.json"));
+  EXPECT_EQ(json.at("settings").at("kernel"), "edge");
+  auto csr = read_table(folder() / "csr/history.csv");
+  auto edge = read_table(folder() / "edge/history.csv");
+  for (const auto& [name, values] : csr) {
+    double largest = 0.0;
+    for (double x : values) largest = std::max(largest, std::abs(x));
+    for (std::size_t i = 0; i < values.size(); ++i)
+      EXPECT_NEAR(values[i], edge[name][i], 1e-9 * largest) << name;
+  }
+}
+
+TEST_F(Results, EnergiesThatNobodyAsksForLeaveTheirColumnsEmpty) {
+  run("without", {"--no-energies"});
+  const std::vector<std::string> rows = lines_of(read_text(folder() / "without/history.csv"));
+  ASSERT_GT(rows.size(), 2u);
+  for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_THAT(rows[i], HasSubstr(",,,")) << rows[i];
+  EXPECT_THAT(rows[1], testing::Not(HasSubstr("nan")));
+}
+
 TEST_F(Results, AreListedAtTheEndAndNothingIsSaidWhenQuiet) {
   write("beam.toml", small_beam());
   const Finished spoken = rheo({"run", "beam.toml", "-o", "a", "--vtu"});

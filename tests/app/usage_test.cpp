@@ -65,6 +65,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Wrong{
             "Integrator", {"run", "beam.toml", "--integrator", "rk5"}, {"--integrator 'rk5'", "rk4, euler"}},
+        Wrong{"Kernel", {"run", "beam.toml", "--kernel", "fast"}, {"--kernel 'fast'", "auto, csr, edge"}},
         Wrong{"StepWord",
               {"run", "beam.toml", "--step", "small"},
               {"--step 'small'", "auto", "greater than 0"}},
@@ -113,8 +114,8 @@ TEST_F(Usage, HelpOfACommandNamesAllItsOptions) {
   const Finished render = rheo({"render", "--help"});
   EXPECT_EQ(render.exit_code, 0);
   for (const char* option : {"--integrator", "--step", "--duration", "--frame-rate", "--threads", "--vtu",
-                             "--force", "--allow-unstable", "--quiet", "--size", "--color", "--range",
-                             "--backend", "--sheet", "-o,--output", "seconds", "Pa m"})
+                             "--force", "--allow-unstable", "--quiet", "--kernel", "--no-energies", "--size",
+                             "--color", "--range", "--backend", "--sheet", "-o,--output", "seconds", "Pa m"})
     EXPECT_THAT(render.out, HasSubstr(option));
   const Finished run = rheo({"run", "--help"});
   EXPECT_THAT(run.out, Not(HasSubstr("--backend")));
