@@ -61,6 +61,7 @@ struct Simulation::Impl {
     choose_step(options);
     const auto part = static_cast<Eigen::Index>(model.layout.part);
     base.setZero(part);
+    jump.setZero(part);
     dv.setZero(part);
     momentum.setZero(part);
     owner.assign(model.layout.part, -1);
@@ -129,14 +130,17 @@ struct Simulation::Impl {
     for (const HeldDof& h : next.held) {
       next_owner[h.dof] = h.owner;
       const Polynomial& course = next.course[h.owner][h.dof % 2];
+      const double after = course.derivative(next.begin, 1);
       if (owner[h.dof] != h.owner) {
         base[h.dof] = u()[h.dof] - course.value(next.begin);
+        jump[h.dof] = after - v()[h.dof];
         begins = true;
       } else {
         const double before = interval.course[h.owner][h.dof % 2].derivative(next.begin, 1);
-        const double after = course.derivative(next.begin, 1);
         // The same velocity from two polynomials differs by rounding.
-        if (std::abs(after - before) > 1e-12 * (std::abs(after) + std::abs(before))) begins = true;
+        const bool jumps = std::abs(after - before) > 1e-12 * (std::abs(after) + std::abs(before));
+        jump[h.dof] = jumps ? after - before : 0.0;
+        begins = begins || jumps;
       }
     }
     owner = std::move(next_owner);
@@ -144,28 +148,33 @@ struct Simulation::Impl {
     interval = std::move(next);
     index = i;
     body->enter(interval, base);
-    if (begins && project_velocity()) body->load(y);
+    if (begins && project_velocity(first)) body->load(y);
     body->impose_prescribed(time);
     changed();
     if (begins || other_constraints) note_violations();
   }
 
-  // v+ = v + M^-1 A L with A^T v+ = b': an impulse, whose energy is work.
-  bool project_velocity() {
+  // v+ = v + M^-1 A L: an impulse, whose energy is work. A constraint that begins takes A^T v to b'; one that
+  // goes on changes A^T v by the jump of its b' only, so that Baumgarte's decay of what it had is left alone.
+  bool project_velocity(bool first) {
     const ConstraintSolver& solver = *interval.solver;
     const std::size_t columns = solver.columns().size();
-    bool jump = false;
+    bool any = false;
     for (const HeldDof& h : interval.eliminated) {
-      dv[h.dof] = body->prescribed(h, interval.begin, 1) - v()[h.dof];
-      jump = jump || dv[h.dof] != 0.0;
+      dv[h.dof] = jump[h.dof];
+      any = any || dv[h.dof] != 0.0;
     }
     Vector target(static_cast<Eigen::Index>(columns)), impulse;
     for (std::size_t j = 0; j < columns; ++j) {
-      target[j] =
-          body->column_value(solver.columns()[j], interval.begin, 1) - solver.row_times(j, v().data());
-      jump = jump || target[j] != 0.0;
+      const Column& column = solver.columns()[j];
+      if (column.owner >= 0) {
+        target[j] = jump[column.entries.front().first];
+      } else {
+        target[j] = first ? -solver.row_times(j, v().data()) : 0.0;
+      }
+      any = any || target[j] != 0.0;
     }
-    if (!jump) return false;
+    if (!any) return false;
     solver.solve(Vector::Zero(dv.size()), dv, target, impulse);
     model.multiply_mass(dv.data(), momentum.data());
     const double work = momentum.dot(v()) + 0.5 * momentum.dot(dv);
@@ -291,7 +300,7 @@ struct Simulation::Impl {
   Interval interval;
   std::vector<double> y, zeros;
   bool y_current = true;
-  Vector base, dv, momentum;
+  Vector base, jump, dv, momentum;
   std::vector<int> owner;  // by degree of freedom: who holds it, -1: nobody
   std::vector<double> allowed_violation;
   EnergySample sample;

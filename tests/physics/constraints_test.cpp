@@ -60,6 +60,29 @@ TEST(Baumgarte, ViolationDecaysCritically) {
   }
 }
 
+TEST(Baumgarte, DecayOfAViolationIsLeftAloneByOtherConstraints) {
+  // The same decay while holds begin and end elsewhere, by elimination and by columns of their own.
+  for (ConstraintMethod method : {ConstraintMethod::automatic, ConstraintMethod::baumgarte}) {
+    Scene scene = tied_beam(Mass::consistent);
+    scene.constraints[0].value = 0.1;
+    scene.fixes.push_back({{2}, Axis::both, {0.03, 0.06}, "hold"});
+    scene.moves.push_back({{7},
+                           Axis::y,
+                           {0.02, 0.5},
+                           {{0, {0, 0}, {}}, {0.1, {0, 0.01}, {}}, {0.2, {0, 0}, {}}},
+                           Profile::linear,
+                           "tap"});
+    scene.time.constraints = method;
+    scene.time.step = 1e-4;
+    Simulation simulation(scene);
+    for (double t : {0.05, 0.1, 0.3}) {
+      ASSERT_FALSE(simulation.advance(t));
+      const double c = simulation.u()[18] - simulation.u()[8] - 0.1;
+      EXPECT_NEAR(c, -0.1 * (1 + 20 * t) * std::exp(-20 * t), 1e-9 * 0.1) << t;
+    }
+  }
+}
+
 TEST(Baumgarte, AgreesWithEliminationOnFixedNodes) {
   Scene scene = paper_beam(Mass::consistent);
   scene.time.step = 1e-3;
