@@ -8,6 +8,7 @@ rheo::Scene load_scene(const Options& options) {
   rheo::Scene scene = rheo::read_scene(options.scene);
   if (options.integrator) scene.time.integrator = *options.integrator;
   if (options.step) scene.time.step = *options.step;
+  if (options.step || options.integrator) scene.time.where.clear();  // what is wrong now is not the file's
   if (options.duration) scene.time.duration = *options.duration;
   if (options.frame_rate) scene.time.frame_rate = *options.frame_rate;
   if (options.color) scene.picture.color = *options.color;

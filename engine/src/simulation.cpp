@@ -68,40 +68,36 @@ struct Simulation::Impl {
     enter(0);
   }
 
+  // Refuses with the place in the scene file where there is one.
+  [[noreturn]] void refuse_step(const std::string& text) const {
+    const std::string& where = scene.time.where;
+    throw Error(Error::Kind::input, where.empty() ? text : where + " " + text);
+  }
+
   void choose_step(const SimulationOptions& options) {
     const TimeSettings& settings = scene.time;
     limit = rheo::stable_step(spectrum, settings.integrator);
     const std::string name(integrator->name());
-    if (settings.step > 0.0) {
-      if (settings.step > limit * (1.0 + 1e-12) && !options.allow_unstable) {
-        throw Error(
-            Error::Kind::input,
-            limit > 0.0
-                ? fmt::format(
-                      "step = {:g} s is beyond the largest stable step of {}, {:.6g} s: take a smaller "
-                      "one or \"auto\", or allow it (--allow-unstable)",
-                      settings.step, name, limit)
-                : fmt::format(
-                      "no step of {} is stable here, some vibrations are not damped: use integrator = "
-                      "\"rk4\", or allow step = {:g} s (--allow-unstable)",
-                      name, settings.step));
-      }
-      bound = settings.step;
-    } else {
-      if (limit == 0.0) {
-        throw Error(Error::Kind::input,
-                    fmt::format("no step of {} is stable here, some vibrations are not damped: use "
-                                "integrator = \"rk4\"",
-                                name));
-      }
-      bound = auto_fraction * limit;
+    const bool given = settings.step > 0.0;
+    if (limit == 0.0 && !(given && options.allow_unstable)) {
+      refuse_step(fmt::format(
+          "integrator = \"{}\": no step of it is stable here, some vibrations are not damped: use "
+          "\"rk4\", or give a step and allow it (--allow-unstable)",
+          name));
     }
+    if (given && settings.step > limit * (1.0 + 1e-12) && !options.allow_unstable) {
+      refuse_step(
+          fmt::format("step = {:g} s: beyond the largest stable step of {}, {:.6g} s: take a smaller one or "
+                      "\"auto\", or allow it (--allow-unstable)",
+                      settings.step, name, limit));
+    }
+    bound = given ? settings.step : auto_fraction * limit;
     if (!(settings.duration / bound < most_steps)) {
-      throw Error(
-          Error::Kind::input,
-          fmt::format(
-              "step = {:g} s needs {:.2g} steps for the duration of {:g} s, at most {:g} can be counted",
-              bound, settings.duration / bound, settings.duration, most_steps));
+      refuse_step(
+          fmt::format("step = {}: {:g} s needs {:.2g} steps for the duration of {:g} s, at most {:g} can be "
+                      "counted: check the material's moduli and density and the mesh's size",
+                      given ? fmt::format("{:g}", settings.step) : "\"auto\"", bound,
+                      settings.duration / bound, settings.duration, most_steps));
     }
   }
 

@@ -179,12 +179,14 @@ TEST(StableStep, UndampedBodyHasNoStableEulerStep) {
 TEST(StableStep, BeyondTheLimitIsRefusedByName) {
   Scene scene = paper_beam(Mass::lumped);
   scene.time.step = 0.1;
+  scene.time.where = "beam.toml:31: [time]";
   try {
     Simulation simulation(scene);
     FAIL() << "accepted";
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), Error::Kind::input);
-    EXPECT_NE(std::string(e.what()).find("step = 0.1 s is beyond the largest stable step of rk4"),
+    EXPECT_EQ(std::string(e.what()).find("beam.toml:31: [time] step"), 0u) << e.what();
+    EXPECT_NE(std::string(e.what()).find("step = 0.1 s: beyond the largest stable step of rk4"),
               std::string::npos)
         << e.what();
   }

@@ -104,6 +104,7 @@ struct TimeSettings {
   double step = 0.0;        // upper bound [s]; 0: a quarter of the stable limit
   double baumgarte = 20.0;  // omega [1/s]
   ConstraintMethod constraints = ConstraintMethod::automatic;
+  std::string where;  // for messages about the step: "beam.toml:31: [time]"
 };
 
 enum class ColorBy { w_lambda, w_mu, w, speed, none };

@@ -235,6 +235,7 @@ class SceneReader {
       }
       t.step = step->number;
     }
+    t.where = time.where();
     t.baumgarte = time.number("baumgarte", {.low = 0.0, .low_allowed = false, .unit = "1/s"}, t.baumgarte);
     t.constraints = static_cast<ConstraintMethod>(time.choice("constraints", methods, 0));
     time.locate([&] { validate(t); });
