@@ -22,6 +22,12 @@ EdgeBody::EdgeBody(const Mesh& mesh, const Model& model, SimdLevel level)
   const Material& m = model.material;
   const double l = m.lambda_rate();
   const double r = m.mu_rate();
+  // p mixes w_lambda and w_mu: driven alike by v, their sizes are as ela / (rate + fastest rate of v) at
+  // least.
+  const auto reach = [&](double ela, double rate) { return ela / (rate + model.element_omega); };
+  const double least = std::min(reach(m.lambda_ela, l), reach(m.mu_ela, r));
+  const double most = std::max(reach(m.lambda_ela, l), reach(m.mu_ela, r));
+  parts_ = {StatePart{4 * n, least > 0.0 ? least / most : 1.0}, StatePart{2 * n, 1.0}, StatePart{2 * n, 1.0}};
   for (int axis = 0; axis < 2; ++axis) {
     const int b = 2 * axis;
     const int a = b + 1;

@@ -3,6 +3,7 @@
 // Not here consistent mass, general constraints: AssembledBody
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "body.hpp"
@@ -22,6 +23,7 @@ class EdgeBody final : public Body {
   void impose_prescribed(double t) override;
   void fma(double h, std::span<const double> x, std::span<const double> base, const Forcing& forcing,
            std::span<double> out, Result result) override;
+  std::span<const StatePart> parts() const override { return parts_; }
   EnergySample sample(double t) override;
   void reaction(double t, Vector& out) override;
 
@@ -42,6 +44,7 @@ class EdgeBody final : public Body {
   EdgeForm form_;
   SweepFunction sweep_;
   SweepMaterial material_;
+  std::array<StatePart, 3> parts_;
   std::vector<double> mass_;          // n x 2, kernel order
   std::vector<double> inverse_mass_;  // n x 2, zero where held
   std::vector<double> zeros_, ones_;
