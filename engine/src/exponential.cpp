@@ -16,7 +16,7 @@ constexpr double longest_real = 1500.0;  // real: sqrt(2 z ln(1 / tolerance)) te
 constexpr double widest = 2.0;           // half width times H across the axis
 constexpr double negligible_rate = 0.5;  // rate times H below which the shift is not worth its cost
 constexpr double rounding = std::numeric_limits<double>::epsilon();
-constexpr int look_every = 16;  // terms between looks at their size
+constexpr std::size_t first_look_at_size = 8;
 constexpr int most_retries = 16;
 constexpr std::size_t most_parts = 16;  // of a state
 
@@ -40,7 +40,10 @@ Exponential::Exponential(std::size_t size, const ExponentialSettings& settings)
       a_(size),
       b_(size),
       sum_(size),
-      scale_(most_parts, 0.0) {
+      scale_(most_parts, 0.0),
+      peak_(most_parts),
+      rest_(most_parts),
+      sum_scale_(most_parts) {
   assert(settings.frequency >= 0.0 && settings.rate >= 0.0 && settings.tolerance > 0.0);
 }
 
@@ -99,10 +102,10 @@ void Exponential::make_plan(double h, int parts, Axis axis) {
   // The earliest that could do: terms that have not grown at all.
   std::size_t first = 1;
   while (first + 1 < most_terms && remainders_[first + 1] > p.tolerance) ++first;
-  p.first_look = static_cast<int>(first);
+  p.first_look = first;
 }
 
-void Exponential::advance(LinearOperator& op, double t, double h, int k, std::span<const double> v,
+void Exponential::advance(LinearOperator& op, double t, double h, std::size_t k, std::span<const double> v,
                           std::span<double> before) {
   const double sign = plan_.axis == Axis::real && k % 2 == 1 ? -1.0 : 1.0;
   const double factor = sign * (k == 0 ? 1.0 : 2.0) / plan_.radius;
@@ -118,29 +121,37 @@ void Exponential::advance(LinearOperator& op, double t, double h, int k, std::sp
   std::swap(c_, c_before_);
 }
 
-void Exponential::measure(std::span<const StatePart> parts, std::span<const double> y) {
+void Exponential::include(std::span<const StatePart> parts, double factor, std::span<const double> x,
+                          std::vector<double>& largest) {
   std::size_t begin = 0;
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    scale_[p] = std::max(scale_[p], norm(y.data() + begin, parts[p].size));
+    const double size = factor * norm(x.data() + begin, parts[p].size);
+    if (!(size <= largest[p])) largest[p] = size;  // NaN stays
     begin += parts[p].size;
   }
 }
 
-double Exponential::relative_size(std::span<const StatePart> parts, std::span<const double> v,
-                                  std::span<const double> w, double factor) const {
-  double largest = 0.0;
-  std::size_t begin = 0;
+Exponential::Outcome Exponential::judge(std::span<const StatePart> parts, std::size_t k) {
+  const double factor = plan_.growth * remainders_[k + 1];
+  std::fill(rest_.begin(), rest_.end(), 0.0);
+  include(parts, factor, a_, rest_);
+  include(parts, factor, b_, rest_);
+  std::copy(scale_.begin(), scale_.end(), sum_scale_.begin());
+  include(parts, 1.0, sum_, sum_scale_);
+  // Terms that outgrow the sum take its digits with them by rounding, whatever is left out.
+  const double lost_to_rounding = rounding / (0.1 * std::max(settings_.tolerance, 1e-12));
+  Outcome outcome = Outcome::done;
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    const std::size_t size = parts[p].size;
-    const double term = factor * std::max(norm(v.data() + begin, size), norm(w.data() + begin, size));
-    const double whole = parts[p].share * std::max(scale_[p], norm(sum_.data() + begin, size));
-    begin += size;
-    if (term == 0.0) continue;
-    const double ratio = term / whole;
-    if (!(ratio <= largest)) largest = ratio;  // NaN wins
-    if (std::isnan(largest)) break;
+    const double size = parts[p].share * sum_scale_[p];
+    if (std::isnan(rest_[p])) return Outcome::lost;
+    if (!(rest_[p] <= plan_.tolerance * size)) outcome = Outcome::more;
   }
-  return largest;
+  if (outcome == Outcome::more) return outcome;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (!(lost_to_rounding * peak_[p] <= parts[p].share * sum_scale_[p])) return Outcome::lost;
+  }
+  std::swap(scale_, sum_scale_);
+  return Outcome::done;
 }
 
 bool Exponential::expand(LinearOperator& op, double t, double h, std::span<const double> y,
@@ -149,10 +160,8 @@ bool Exponential::expand(LinearOperator& op, double t, double h, std::span<const
   const StatePart whole{size, 1.0};
   const std::span<const StatePart> parts = op.parts().empty() ? std::span(&whole, 1) : op.parts();
   assert(parts.size() <= most_parts);
-  measure(parts, y);
-
-  // Terms that outgrow the sum lose its digits to rounding, whatever the remainder says.
-  const double too_large = 0.1 * std::max(settings_.tolerance, 1e-12) / rounding;
+  include(parts, 1.0, y, scale_);
+  std::fill(peak_.begin(), peak_.end(), 0.0);
   c_ = {1.0, 0.0, 0.0, 0.0};
   c_before_ = {};
   if (rate.empty()) {
@@ -167,27 +176,22 @@ bool Exponential::expand(LinearOperator& op, double t, double h, std::span<const
   for (std::size_t i = 0; i < size; ++i) sum_[i] = coefficients_[0] * y[i] + coefficients_[1] * a_[i];
   std::copy(y.begin(), y.end(), b_.begin());
 
-  int look = look_every;
-  for (int k = 1; k + 3 < static_cast<int>(most_terms); k += 2) {
-    if (k >= plan_.first_look) {
-      const double rest =
-          relative_size(parts, a_, b_, plan_.growth * remainders_[static_cast<std::size_t>(k) + 1]);
-      if (rest <= plan_.tolerance) {
-        measure(parts, sum_);
-        return true;
-      }
-      if (std::isnan(rest)) return false;
-    }
+  std::size_t look = first_look_at_size;
+  for (std::size_t k = 1; k + 3 < most_terms; k += 2) {
     if (k >= look) {
-      const auto i = static_cast<std::size_t>(k);
-      const double factor = std::max(std::abs(coefficients_[i]), std::abs(coefficients_[i - 1]));
-      if (!(relative_size(parts, a_, b_, factor) <= too_large)) return false;
-      look += look_every;
+      const double factor = std::max(std::abs(coefficients_[k]), std::abs(coefficients_[k - 1]));
+      include(parts, factor, a_, peak_);
+      include(parts, factor, b_, peak_);
+      look += look < 4 * first_look_at_size ? first_look_at_size : 2 * first_look_at_size;
+    }
+    if (k >= plan_.first_look) {
+      const Outcome outcome = judge(parts, k);
+      if (outcome != Outcome::more) return outcome == Outcome::done;
     }
     advance(op, t, h, k, a_, b_);
     advance(op, t, h, k + 1, b_, a_);
-    const double even = coefficients_[static_cast<std::size_t>(k) + 1];
-    const double odd = coefficients_[static_cast<std::size_t>(k) + 2];
+    const double even = coefficients_[k + 1];
+    const double odd = coefficients_[k + 2];
     for (std::size_t i = 0; i < size; ++i) sum_[i] += even * b_[i] + odd * a_[i];
   }
   return false;

@@ -19,7 +19,7 @@
 // shorter step.
 //
 // Source   Tal-Ezer, 1989 (imaginary and real intervals); Bergamaschi and Vianello, 2000 (real)
-// Shapes   parts_, scale_: one a part of the state
+// Shapes   scale_, peak_, rest_, sum_scale_: one a part of the state
 // Errors   converged() is false where that does not help: y stays at the last part of the step that was well
 // Not here constraints by Baumgarte (their forcing is not a cubic)
 #pragma once
@@ -46,11 +46,11 @@ class Exponential final : public Integrator {
   // How one part of a step of a given length is done.
   struct Plan {
     Axis axis = Axis::imaginary;
-    double radius = 0.0;     // R
-    double shift = 0.0;      // s
-    double growth = 1.0;     // of |V_k| from k to k + 1 at most, in the box's middle
-    double tolerance = 0.0;  // of one part
-    int first_look = 1;      // k from which the remainder may be small enough
+    double radius = 0.0;         // R
+    double shift = 0.0;          // s
+    double growth = 1.0;         // of |V_k| from k to k + 1 at most, in the box's middle
+    double tolerance = 0.0;      // of one part
+    std::size_t first_look = 1;  // k from which the remainder may be small enough
   };
 
   // How many equal parts a step of h takes, and along which axis.
@@ -60,12 +60,14 @@ class Exponential final : public Integrator {
   bool expand(LinearOperator& op, double t, double h, std::span<const double> y,
               std::span<const double> rate);
   // V_{k+1} into `before`, which holds V_{k-1}.
-  void advance(LinearOperator& op, double t, double h, int k, std::span<const double> v,
+  void advance(LinearOperator& op, double t, double h, std::size_t k, std::span<const double> v,
                std::span<double> before);
-  void measure(std::span<const StatePart> parts, std::span<const double> y);
-  // Largest over the parts of (what |v| and |w| allow for, times `factor`) / (share times the part's size).
-  double relative_size(std::span<const StatePart> parts, std::span<const double> v, std::span<const double> w,
-                       double factor) const;
+  enum class Outcome { more, done, lost };
+  // Of the sum up to V_k, where a_ and b_ hold V_k and V_{k-1}.
+  Outcome judge(std::span<const StatePart> parts, std::size_t k);
+  // largest[p] = max(largest[p], factor |x's part p|)
+  static void include(std::span<const StatePart> parts, double factor, std::span<const double> x,
+                      std::vector<double>& largest);
 
   ExponentialSettings settings_;
   Plan plan_;
@@ -76,7 +78,9 @@ class Exponential final : public Integrator {
   std::vector<double> remainders_;          // sum over j >= k of |coefficient_j| growth^(j - k)
   std::vector<double> a_, b_, sum_;         // V_k for odd and even k, the sum so far
   std::array<double, 4> c_{}, c_before_{};  // of V_k and V_{k-1}: c_j / H^j
-  std::vector<double> scale_;
+  std::vector<double> scale_;               // size of y so far
+  std::vector<double> peak_;                // of the terms of this sum
+  std::vector<double> rest_, sum_scale_;    // of what is left out, of the sum
   bool converged_ = true;
 };
 

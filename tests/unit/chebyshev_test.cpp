@@ -47,10 +47,7 @@ TEST(Bessel, AgreesWithTheStandardLibraryWhereThatIsAccurate) {
     for (std::size_t k = 0; k < a.size(); k += 7) {
       // The library loses digits with z: about 1e-13 here, all of them from z = 1000 on.
       EXPECT_NEAR(a[k], std::cyl_bessel_j(static_cast<double>(k), z), 2e-13) << "J " << k << " at " << z;
-      if (z < 600) {  // exp(z) is within range
-        EXPECT_NEAR(b[k], std::cyl_bessel_i(static_cast<double>(k), z) * std::exp(-z), 1e-13)
-            << k << ' ' << z;
-      }
+      EXPECT_NEAR(b[k], std::cyl_bessel_i(static_cast<double>(k), z) * std::exp(-z), 1e-13) << k << ' ' << z;
     }
   }
 }
@@ -188,8 +185,8 @@ TEST(Exponential, NeedsNoFrequencyAtAll) {
   a << 0, 1, 0, 0;
   Dense op(a, q);
   const auto y = run(op, {0.0, 0.0}, 1e-13, 2.0, 1, {0.5, 1.0});
-  EXPECT_NEAR(y[0], 0.5 + 2.0 + 4.0, 1e-14);
-  EXPECT_NEAR(y[1], 1.0 + 8.0, 1e-14);
+  EXPECT_NEAR(y[0], 0.5 + 2.0 + 4.0, 1e-12);
+  EXPECT_NEAR(y[1], 1.0 + 8.0, 1e-12);
 }
 
 TEST(Exponential, FindsOutThatItsBoxIsTooSmall) {
