@@ -23,6 +23,11 @@ double largest_length(std::span<const double> u) {
   return largest;
 }
 
+// Nothing where a number is not known.
+std::string if_known(double value) {
+  return std::isnan(value) ? std::string() : fmt::format("{:.17g}", value);
+}
+
 }  // namespace
 
 HistoryFile::HistoryFile(const std::filesystem::path& file, const rheo::Scene& scene) : file_(file) {
@@ -39,9 +44,9 @@ void HistoryFile::record(rheo::Simulation& simulation, std::int64_t) {
   const rheo::Energies energies = simulation.energies();
   // 17 significant digits give every double back exactly.
   std::string row =
-      fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}", times_.back(),
+      fmt::format("{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{},{}", times_.back(),
                   w_lambda_norms_.back(), w_mu_norms_.back(), largest_length(simulation.u()),
-                  energies.kinetic, energies.stored, energies.dissipated, energies.work);
+                  energies.kinetic, energies.stored, if_known(energies.dissipated), if_known(energies.work));
   for (const rheo::Probe& probe : simulation.scene().probes) {
     const rheo::ProbeReading reading = simulation.read(probe);
     fmt::format_to(std::back_inserter(row), ",{:.17g},{:.17g},{:.17g},{:.17g}", reading.displacement.x,

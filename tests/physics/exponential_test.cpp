@@ -6,6 +6,9 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "rheo/error.hpp"
 #include "rheo/simulation.hpp"
@@ -104,6 +107,134 @@ TEST_P(ExponentialScene, KeepsItsTolerance) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, ExponentialScene, testing::ValuesIn(scenarios()),
                          [](const auto& c) { return c.param.name; });
+
+Scene exponential(Scene scene, double tolerance) {
+  scene.time.integrator = IntegratorKind::exponential;
+  scene.time.tolerance = tolerance;
+  return scene;
+}
+
+std::vector<double> outputs(const Scene& scene) {
+  std::vector<double> times;
+  for (std::int64_t k = 1; k < output_count(scene.time); ++k) times.push_back(output_time(scene.time, k));
+  return times;
+}
+
+TEST(Exponential, FollowsThePapersBeamToElevenDigitsAtSixtyHertz) {
+  for (Mass mass : {Mass::lumped, Mass::consistent}) {
+    const Scene scene = exponential(paper_beam(mass), 1e-13);
+    const std::vector<double> times = outputs(scene);
+    ASSERT_EQ(times.size(), 300u);
+    EXPECT_LE(run_error(ExactSolution(scene).at(times), simulate(scene, times)), 1e-11);
+  }
+}
+
+TEST(Exponential, IsTheSameHoweverAnIntervalIsDivided) {
+  // One step to the end, or steps of at most 1 ms: both within the tolerance of each other.
+  Scene scene = exponential(roller(Mass::lumped), 1e-11);
+  const auto whole = simulate(scene, {1.0});
+  scene.time.step = 1e-3;
+  Simulation divided(scene);
+  EXPECT_EQ(divided.step_bound(), 1e-3);
+  EXPECT_FALSE(divided.advance(1.0));
+  EXPECT_GE(divided.counters().steps, 1000);
+  for (std::size_t i = 0; i < divided.u().size(); ++i) {
+    EXPECT_NEAR(divided.u()[i], whole[0].u[static_cast<Eigen::Index>(i)], 1e-10 * whole[0].u.norm());
+  }
+}
+
+TEST(Exponential, HasNoStableLimitAndStepsFromEventToEvent) {
+  const Scene scene = exponential(off_grid_beam(Mass::lumped), 1e-10);
+  Simulation simulation(scene);
+  EXPECT_EQ(simulation.stable_step(), inf);
+  EXPECT_EQ(simulation.step_bound(), inf);
+  EXPECT_EQ(simulation.planned_steps(), 62);  // 60 outputs and 2 events between them
+  EXPECT_FALSE(simulation.advance(1.0));
+  EXPECT_EQ(simulation.counters().steps, 3);  // to both events and to the end
+  EXPECT_EQ(simulation.time(), 1.0);
+}
+
+TEST(Exponential, TakesFarFewerEvaluationsThanRk4ForTheSameError) {
+  Scene scene = paper_beam(Mass::lumped);
+  scene.time.duration = 2.0;
+  const std::vector<double> times = outputs(scene);
+  const auto exact = ExactSolution(scene).at(times);
+  const auto cost = [&](const Scene& s, double error_allowed) {
+    EXPECT_LE(run_error(exact, simulate(s, times)), error_allowed);
+    Simulation simulation(s, {.energies = false});
+    for (double t : times) EXPECT_FALSE(simulation.advance(t));
+    return simulation.counters().force_evaluations;
+  };
+  Scene rk4 = scene;
+  rk4.time.step = 1e-4;
+  EXPECT_GE(cost(rk4, 2e-9), 20 * cost(exponential(scene, 2e-9), 2e-9));
+}
+
+TEST(Exponential, KeepsTheEnergyOfAnElasticBody) {
+  Scene scene = exponential(with_material(paper_beam(Mass::lumped), 7, 5, inf, inf), 1e-12);
+  Simulation simulation(scene);
+  for (double t : outputs(scene)) {
+    ASSERT_FALSE(simulation.advance(t));
+    const Energies e = simulation.energies();
+    EXPECT_EQ(e.dissipated, 0.0);
+    EXPECT_NEAR(e.kinetic + e.stored, e.work, 1e-11 * (e.work + 1.0)) << t;
+  }
+}
+
+TEST(Exponential, LeavesOutWhatAQuadratureOverItsLongStepsWouldGetWrong) {
+  const auto energies = [](Scene scene) {
+    Simulation simulation(exponential(std::move(scene), 1e-9));
+    EXPECT_FALSE(simulation.advance(0.5));
+    EXPECT_GT(simulation.energies().kinetic, 0.0);
+    EXPECT_GT(simulation.energies().stored, 0.0);
+    return simulation.energies();
+  };
+  EXPECT_TRUE(std::isnan(energies(off_grid_beam(Mass::lumped)).dissipated));
+  EXPECT_GT(energies(off_grid_beam(Mass::lumped)).work, 0.0);
+  EXPECT_TRUE(std::isnan(energies(ramped(Mass::lumped)).work));
+  EXPECT_TRUE(std::isnan(energies(moved(Mass::consistent, Profile::smooth)).work));
+}
+
+TEST(Exponential, WorkOfConstantLoadsAndImpulsesIsThatOfAFineRk4Run) {
+  for (const Scene& scene : {off_grid_beam(Mass::lumped), caught(Mass::consistent), let_go(Mass::lumped)}) {
+    Scene fine = scene;
+    fine.time.step = 1e-4;
+    Simulation reference(fine), simulation(exponential(scene, 1e-11));
+    for (double t : {0.3, 0.6, 1.0}) {
+      ASSERT_FALSE(reference.advance(t));
+      ASSERT_FALSE(simulation.advance(t));
+      // RK4's error at this step is below 1e-8.
+      EXPECT_NEAR(simulation.energies().work, reference.energies().work,
+                  1e-7 * std::abs(reference.energies().work));
+    }
+  }
+}
+
+TEST(Exponential, StaysExactlyAtRestWithoutLoads) {
+  Scene scene = exponential(paper_beam(Mass::lumped), 1e-10);
+  scene.tractions.clear();
+  Simulation simulation(scene);
+  EXPECT_FALSE(simulation.advance(5.0));
+  for (double x : simulation.u()) EXPECT_EQ(x, 0.0);
+}
+
+TEST(Exponential, RefusesWhatNeedsBaumgarte) {
+  for (const Scene& scene : {tied(Mass::lumped), baumgarte(off_grid_beam(Mass::lumped))}) {
+    try {
+      Simulation simulation(exponential(scene, 1e-10));
+      ADD_FAILURE() << "accepted";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), Error::Kind::input);
+      EXPECT_NE(std::string(error.what()).find("use \"rk4\""), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(Exponential, RefusesATolerancePastRounding) {
+  for (double tolerance : {0.0, 1e-14, 0.5, std::nan("")}) {
+    EXPECT_THROW(Simulation{exponential(off_grid_beam(Mass::lumped), tolerance)}, Error) << tolerance;
+  }
+}
 
 }  // namespace
 }  // namespace rheo::test
