@@ -125,8 +125,12 @@ void print_steps(const rheo::Simulation& simulation) {
         stable_text(rheo::stable_step(spectrum, kind)));
   row("integrator", "{}", name_of(time.integrator));
   row("kernel", "{}", simulation.kernel());
-  row("step", "{:.6g} s at most ({})", simulation.step_bound(),
-      time.step > 0.0 ? "as asked" : "auto: a quarter of the stable step");
+  if (time.integrator == rheo::IntegratorKind::exponential) row("tolerance", "{:g}", time.tolerance);
+  if (std::isinf(simulation.step_bound()))
+    row("step", "auto: one an interval between events and outputs");
+  else
+    row("step", "{:.6g} s at most ({})", simulation.step_bound(),
+        time.step > 0.0 ? "as asked" : "auto: a quarter of the stable step");
   row("steps", "{} in {:g} s", simulation.planned_steps(), time.duration);
   row("outputs", "{} at {:g} per second", rheo::output_count(time), time.frame_rate);
 }
@@ -146,15 +150,19 @@ Cost measure(rheo::Simulation& simulation) {
   constexpr double enough_seconds = 0.1;
   constexpr std::int64_t chunk = 16, few = 48;
   const double duration = simulation.scene().time.duration;
+  const bool exponential = simulation.scene().time.integrator == rheo::IntegratorKind::exponential;
+  const double step = exponential
+                          ? std::min(simulation.step_bound(), 1.0 / simulation.scene().time.frame_rate)
+                          : simulation.step_bound();
   // The first step pays for cold memory; it is not counted.
   Cost cost;
-  if (simulation.advance(std::min(simulation.step_bound(), duration))) return cost;
+  if (simulation.advance(std::min(step, duration))) return cost;
   const std::int64_t before = simulation.counters().steps;
   const Clock::time_point start = Clock::now();
   while (simulation.time() < duration) {
-    const double t =
-        std::min(simulation.time() + static_cast<double>(chunk) * simulation.step_bound(), duration);
-    if (simulation.advance(t)) break;
+    // Exponential steps are as long as they may be: as in a run, from output to output at most.
+    const double t = simulation.time() + (exponential ? step : static_cast<double>(chunk) * step);
+    if (simulation.advance(std::min(t, duration))) break;
     cost.steps = simulation.counters().steps - before;
     const double passed = since(start);
     if ((cost.steps >= few && passed > enough_seconds) || passed > 10.0 * enough_seconds) break;

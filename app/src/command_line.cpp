@@ -41,7 +41,7 @@ constexpr int most_shapes = 64;
 
 // Option texts as they were typed; read after CLI11 has sorted them.
 struct Texts {
-  std::string scene, folder, integrator, step, duration, frame_rate, threads;
+  std::string scene, folder, integrator, step, tolerance, duration, frame_rate, threads;
   std::string size, color, range, backend, sheet;
   std::string kernel;
   bool vtu = false, force = false, quiet = false, allow_unstable = false, no_energies = false;
@@ -49,15 +49,21 @@ struct Texts {
 
 void add_time_options(CLI::App& command, Texts& texts) {
   const char* group = "Time (default: as the scene says)";
-  command.add_option("--integrator", texts.integrator, "rk4 or euler; a scene's default is rk4")
+  command.add_option("--integrator", texts.integrator, "rk4, euler or exponential; a scene's default is rk4")
       ->type_name("NAME")
       ->group(group);
   command
       .add_option("--step", texts.step,
                   "largest step, seconds; every interval between events and outputs is\n"
                   "divided into equal steps. auto, a scene's default: a quarter of the\n"
-                  "stable limit")
+                  "stable limit; exponential: one step an interval")
       ->type_name("NUMBER|auto")
+      ->group(group);
+  command
+      .add_option("--tolerance", texts.tolerance,
+                  "relative error of the run, integrator exponential only, 1e-13 to 0.1;\n"
+                  "default 1e-10")
+      ->type_name("NUMBER")
       ->group(group);
   command.add_option("--duration", texts.duration, "seconds to simulate")->type_name("NUMBER")->group(group);
   command
@@ -211,6 +217,7 @@ Options read_values(const Texts& texts, const CLI::App& command) {
   };
   if (given("--integrator")) options.integrator = integrator_kind("--integrator", texts.integrator);
   if (given("--step")) options.step = step_value("--step", texts.step);
+  if (given("--tolerance")) options.tolerance = tolerance_value("--tolerance", texts.tolerance);
   if (given("--duration")) options.duration = positive_number("--duration", texts.duration, "seconds");
   if (given("--frame-rate"))
     options.frame_rate = positive_number("--frame-rate", texts.frame_rate, "outputs per second");

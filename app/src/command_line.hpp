@@ -31,7 +31,8 @@ struct Options {
 
   // Overrides of the scene's [time] and [render]; empty: as the scene says.
   std::optional<rheo::IntegratorKind> integrator;
-  std::optional<double> step;  // [s]; 0: auto
+  std::optional<double> step;       // [s]; 0: auto
+  std::optional<double> tolerance;  // integrator exponential only
   std::optional<double> duration;
   std::optional<double> frame_rate;
   std::optional<rheo::ColorBy> color;

@@ -37,7 +37,8 @@ using Choices = std::vector<std::pair<std::string, Value>>;
 
 const Choices<rheo::IntegratorKind>& integrators() {
   static const Choices<rheo::IntegratorKind> all{{"rk4", rheo::IntegratorKind::rk4},
-                                                 {"euler", rheo::IntegratorKind::euler}};
+                                                 {"euler", rheo::IntegratorKind::euler},
+                                                 {"exponential", rheo::IntegratorKind::exponential}};
   return all;
 }
 
@@ -88,6 +89,15 @@ double positive_number(const std::string& option, const std::string& text, const
   const std::optional<double> value = whole_text<double>(text);
   if (!value || !std::isfinite(*value) || *value <= 0.0)
     refuse(option, text, fmt::format("must be a number greater than 0 ({})", unit));
+  return *value;
+}
+
+double tolerance_value(const std::string& option, const std::string& text) {
+  const std::optional<double> value = whole_text<double>(text);
+  if (!value || !(*value >= rheo::finest_tolerance && *value <= rheo::coarsest_tolerance))
+    refuse(
+        option, text,
+        fmt::format("must be a number from {:g} to {:g}", rheo::finest_tolerance, rheo::coarsest_tolerance));
   return *value;
 }
 

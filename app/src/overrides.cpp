@@ -1,5 +1,9 @@
 #include "overrides.hpp"
 
+#include <fmt/format.h>
+
+#include "failure.hpp"
+#include "option_values.hpp"
 #include "rheo/io/scene_file.hpp"
 
 namespace app {
@@ -9,6 +13,14 @@ rheo::Scene load_scene(const Options& options) {
   if (options.integrator) scene.time.integrator = *options.integrator;
   if (options.step) scene.time.step = *options.step;
   if (options.step || options.integrator) scene.time.where.clear();  // what is wrong now is not the file's
+  if (options.tolerance) {
+    if (scene.time.integrator != rheo::IntegratorKind::exponential) {
+      throw Failure(ExitCode::usage,
+                    fmt::format("--tolerance '{:g}': for the integrator exponential only, not {}",
+                                *options.tolerance, name_of(scene.time.integrator)));
+    }
+    scene.time.tolerance = *options.tolerance;
+  }
   if (options.duration) scene.time.duration = *options.duration;
   if (options.frame_rate) scene.time.frame_rate = *options.frame_rate;
   if (options.color) scene.picture.color = *options.color;

@@ -1,6 +1,8 @@
 // A scene as the command line wants it.
 //
-// Errors   rheo::Error of read_scene and validate
+// Errors   rheo::Error of read_scene and validate; Failure(usage) for an option that the integrator has no
+// use
+//          for
 #pragma once
 
 #include "command_line.hpp"

@@ -25,6 +25,8 @@ Json settings_of(const Options& options, const rheo::Simulation& simulation, con
   json["step_bound"] = number(simulation.step_bound());
   json["largest_step"] = number(report.largest_step);
   json["stable_step"] = number(simulation.stable_step());
+  json["tolerance"] =
+      time.integrator == rheo::IntegratorKind::exponential ? Json(time.tolerance) : Json(nullptr);
   json["duration"] = time.duration;
   json["frame_rate"] = time.frame_rate;
   json["threads"] = options.threads;

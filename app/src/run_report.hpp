@@ -1,9 +1,9 @@
 // run.json: what is needed to do a run again and what it cost.
 //
 //   rheo, compiler, build_type, command_line, scene_file, scene (its text), title
-//   settings: integrator, step_asked (0: auto), step_bound, largest_step (used), stable_step, duration,
-//   frame_rate, threads, renderer mesh: nodes, triangles; outputs; files; counters; seconds by phase; notes;
-//   warnings; exit_status; divergence or null
+//   settings: integrator, step_asked (0: auto), step_bound, largest_step (used), stable_step,
+//   tolerance (exponential only), duration, frame_rate, threads, renderer mesh: nodes, triangles; outputs;
+//   files; counters; seconds by phase; notes; warnings; exit_status; divergence or null
 //
 // Units    SI
 // Errors   rheo::Error::Kind::file

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -88,6 +89,11 @@ std::string divergence_text(const rheo::Divergence& divergence, const rheo::Simu
   if (stable <= 0.0)
     return fmt::format("{}: no step of {} is stable for this scene, {:.4g} s was used: use --integrator rk4",
                        where, name_of(time.integrator), used);
+  if (std::isinf(stable))
+    return fmt::format(
+        "{}: {} could not reach its tolerance of {:g}: check the scene's loads and motions, or try "
+        "--integrator rk4",
+        where, name_of(time.integrator), time.tolerance);
   if (used > stable)
     return fmt::format(
         "{}: the step of {:.4g} s is beyond the stable step of {}, {:.4g} s: use --step auto or less "

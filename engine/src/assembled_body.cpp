@@ -14,6 +14,7 @@ ConstVectorMap part(const Layout& layout, std::span<const double> y, std::size_t
 
 AssembledBody::AssembledBody(const Model& model, double omega) : Body(model, omega) {
   state_.assign(model.layout.size(), 0.0);
+  parts_.assign(model.layout.size() / model.layout.part, {model.layout.part, 1.0});
   rate_.assign(model.layout.size(), 0.0);
   rhs_.setZero(static_cast<Eigen::Index>(model.layout.part));
   momentum_.setZero(static_cast<Eigen::Index>(model.layout.part));

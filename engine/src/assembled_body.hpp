@@ -21,6 +21,7 @@ class AssembledBody final : public Body {
   void impose_prescribed(double t) override;
   void fma(double h, std::span<const double> x, std::span<const double> base, const Forcing& forcing,
            std::span<double> out, Result result) override;
+  std::span<const StatePart> parts() const override { return parts_; }
   EnergySample sample(double t) override;
   std::span<const double> known_rate() const override;
   void reaction(double t, Vector& out) override;
@@ -40,6 +41,7 @@ class AssembledBody final : public Body {
   void reaction(const Evaluation& evaluation, const Forcing& forcing, Vector& out) const;
 
   Evaluation work_, evaluation_, derivative_;
+  std::vector<StatePart> parts_;  // u, v, w_lambda, w_mu
   std::vector<double> rate_;
   bool evaluated_ = false;
   Vector rhs_, target_, momentum_, reaction_, reaction_rate_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "exponential.hpp"
+
 namespace rheo {
 namespace {
 
@@ -73,10 +75,13 @@ class Rk4 final : public Integrator {
 
 }  // namespace
 
-std::unique_ptr<Integrator> make_integrator(IntegratorKind kind, std::size_t size) {
+std::unique_ptr<Integrator> make_integrator(IntegratorKind kind, std::size_t size,
+                                            const ExponentialSettings& settings) {
   switch (kind) {
     case IntegratorKind::euler:
       return std::make_unique<Euler>(size);
+    case IntegratorKind::exponential:
+      return std::make_unique<Exponential>(size, settings);
     case IntegratorKind::rk4:
       break;
   }

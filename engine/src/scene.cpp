@@ -128,6 +128,10 @@ void validate(const TimeSettings& time) {
   if (!(time.step >= 0.0) || !std::isfinite(time.step)) {
     refuse(where, fmt::format("step = {}: \"auto\" or a finite number > 0 (s) is needed", time.step));
   }
+  if (!(time.tolerance >= finest_tolerance && time.tolerance <= coarsest_tolerance)) {
+    refuse(where, fmt::format("tolerance = {}: {:g} to {:g} is allowed", time.tolerance, finest_tolerance,
+                              coarsest_tolerance));
+  }
   if (time.step > 0.0 && !(time.duration / time.step <= max_steps)) {
     refuse(where, fmt::format("step = {}: {:.3g} steps in {} s; at most {:.0e} are allowed", time.step,
                               time.duration / time.step, time.duration, max_steps));

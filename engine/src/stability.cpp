@@ -56,12 +56,14 @@ double stable_step_of(std::complex<double> s, IntegratorKind integrator) {
   const double size = std::abs(s);
   if (size == 0.0) return infinite;
   if (s.real() > 0.0) return 0.0;
+  if (integrator == IntegratorKind::exponential) return infinite;
   const std::complex<double> direction = s / size;
   const double radius = integrator == IntegratorKind::euler ? -2.0 * direction.real() : rk4_radius(direction);
   return radius / size;
 }
 
 double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
+  if (integrator == IntegratorKind::exponential) return infinite;
   double step = infinite;
   const auto include = [&](std::complex<double> s) { step = std::min(step, stable_step_of(s, integrator)); };
 

@@ -70,6 +70,18 @@ TEST_F(Check, TakesOverrides) {
   EXPECT_THAT(row(finished.out, "steps"), HasSubstr("2000 in 2 s"));
 }
 
+TEST_F(Check, KnowsNoStableLimitOfTheExponentialIntegrator) {
+  write("beam.toml", small_beam());
+  const Finished finished = rheo(
+      {"check", "beam.toml", "--integrator", "exponential", "--tolerance", "1e-7", "--frame-rate", "10"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_EQ(row(finished.out, "integrator"), "exponential");
+  EXPECT_EQ(row(finished.out, "tolerance"), "1e-07");
+  EXPECT_EQ(row(finished.out, "step"), "auto: one an interval between events and outputs");
+  EXPECT_EQ(row(finished.out, "steps"), "5 in 0.5 s");
+  EXPECT_THAT(row(finished.out, "cost"), HasSubstr("forecast"));
+}
+
 TEST_F(Check, WritesNothing) {
   write("beam.toml", small_beam());
   EXPECT_EQ(rheo({"check", "beam.toml"}).exit_code, 0);

@@ -176,6 +176,29 @@ TEST_F(Results, EnergiesThatNobodyAsksForLeaveTheirColumnsEmpty) {
   EXPECT_THAT(rows[1], testing::Not(HasSubstr("nan")));
 }
 
+TEST_F(Results, OfTheExponentialIntegratorLeaveEmptyWhatItDoesNotKnow) {
+  run("exponential", {"--integrator", "exponential"});
+  const std::vector<std::string> lines = lines_of(read_text(folder() / "exponential/history.csv"));
+  ASSERT_THAT(lines, SizeIs(12));
+  std::vector<std::string> cells(1);
+  for (const char c : lines.back()) {
+    if (c == ',')
+      cells.emplace_back();
+    else
+      cells.back() += c;
+  }
+  ASSERT_THAT(cells, SizeIs(12));
+  EXPECT_EQ(cells[6], "");              // dissipated
+  EXPECT_GT(std::stod(cells[7]), 0.0);  // work of a constant traction
+  run("rk4");
+  const double rk4 = read_table(folder() / "rk4/history.csv")["grip_ux"].at(10);
+  EXPECT_NEAR(std::stod(cells[8]), rk4, 1e-3 * std::abs(rk4));  // RK4's error at a quarter of its limit
+  const auto json = nlohmann::json::parse(read_text(folder() / "exponential/run.json"));
+  EXPECT_EQ(json.at("settings").at("integrator"), "exponential");
+  EXPECT_EQ(json.at("settings").at("tolerance"), 1e-10);
+  EXPECT_TRUE(json.at("settings").at("step_bound").is_null());
+}
+
 TEST_F(Results, AreListedAtTheEndAndNothingIsSaidWhenQuiet) {
   write("beam.toml", small_beam());
   const Finished spoken = rheo({"run", "beam.toml", "-o", "a", "--vtu"});

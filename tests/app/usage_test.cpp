@@ -66,6 +66,12 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{
             "Integrator", {"run", "beam.toml", "--integrator", "rk5"}, {"--integrator 'rk5'", "rk4, euler"}},
         Wrong{"Kernel", {"run", "beam.toml", "--kernel", "fast"}, {"--kernel 'fast'", "auto, csr, edge"}},
+        Wrong{"Tolerance",
+              {"run", "beam.toml", "--integrator", "exponential", "--tolerance", "1e-16"},
+              {"--tolerance '1e-16'", "1e-13 to 0.1"}},
+        Wrong{"ToleranceOfAnother",
+              {"run", "beam.toml", "--tolerance", "1e-6"},
+              {"--tolerance '1e-06'", "exponential", "rk4"}},
         Wrong{"StepWord",
               {"run", "beam.toml", "--step", "small"},
               {"--step 'small'", "auto", "greater than 0"}},

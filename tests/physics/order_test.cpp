@@ -7,8 +7,8 @@
 #include <functional>
 
 #include "rheo/simulation.hpp"
+#include "support/event_scenes.hpp"
 #include "support/exact.hpp"
-#include "support/scenes.hpp"
 
 namespace rheo::test {
 namespace {
@@ -18,70 +18,6 @@ struct OrderCase {
   std::function<Scene()> scene;
   friend void PrintTo(const OrderCase& c, std::ostream* out) { *out << c.name; }
 };
-
-// A short beam of large triangles (so that many steps are quick), with a pull that begins and ends at times
-// no output or round step meets.
-Scene off_grid_beam(Mass mass) {
-  Scene scene = paper_beam(mass);
-  scene.mesh = rectangle({2.0, 1.0}, 3, 2);
-  scene.fixes[0].nodes = nodes_of(scene.mesh.edge_groups.at("left"));
-  scene.tractions[0].edges = scene.mesh.edge_groups.at("right");
-  scene.tractions[0].window = {0.1234567, 0.7654321};
-  scene.time.duration = 1.0;
-  return scene;
-}
-
-std::vector<int> right_nodes(const Scene& scene) {
-  return nodes_of(scene.mesh.edge_groups.at("right"));
-}
-
-Scene ramped(Mass mass) {
-  Scene scene = off_grid_beam(mass);
-  scene.tractions[0].keys = {{0.2, {0, 0}}, {0.4567, {10, -3}}, {0.7, {-5, 2}}};
-  return scene;
-}
-
-Scene moved(Mass mass, Profile profile) {
-  Scene scene = off_grid_beam(mass);
-  scene.tractions.clear();
-  scene.moves.push_back(
-      {right_nodes(scene),
-       Axis::both,
-       {0.05, 0.6180339},
-       {{0.0, {0, 0}, {0, 0}}, {0.3217, {0.1, 0.02}, {0.3, -0.1}}, {0.55, {0.05, 0}, {0, 0}}},
-       profile,
-       "grip"});
-  return scene;
-}
-
-Scene baumgarte(Scene scene) {
-  scene.time.constraints = ConstraintMethod::baumgarte;
-  return scene;
-}
-
-Scene tied(Mass mass) {  // the two right corners move alike in x: one general constraint
-  Scene scene = off_grid_beam(mass);
-  scene.constraints.push_back({{{5, Axis::x, 1.0}, {2, Axis::x, -1.0}}, 0.0, "tie"});
-  return scene;
-}
-
-Scene pulled_together(Mass mass) {  // begins violated: Baumgarte's own dynamics is part of the solution
-  Scene scene = tied(mass);
-  scene.constraints[0].value = 0.02;
-  return scene;
-}
-
-Scene roller(Mass mass) {  // different free sets in x and y, a roller that lets go
-  Scene scene = off_grid_beam(mass);
-  scene.fixes.push_back({nodes_of(scene.mesh.edge_groups.at("bottom")), Axis::y, {0.0, 0.54321}, "bottom"});
-  return scene;
-}
-
-Scene caught(Mass mass) {  // a fix that begins while its nodes move: an impulse
-  Scene scene = off_grid_beam(mass);
-  scene.fixes.push_back({right_nodes(scene), Axis::both, {0.4321, 0.8}, "catch"});
-  return scene;
-}
 
 std::vector<OrderCase> cases() {
   std::vector<OrderCase> all;

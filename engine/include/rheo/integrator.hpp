@@ -1,4 +1,4 @@
-// Fixed-step integrators for y' = A y + g(t) on flat arrays.
+// Integrators for y' = A y + g(t) on flat arrays.
 //
 // They see an operator and nothing of the physics behind it: rheological bodies and scalar test equations go
 // through the same few lines.
@@ -25,6 +25,12 @@ struct Forcing {
 // or the step.
 enum class Result { intermediate, step };
 
+// A stretch of the state that holds one kind of numbers, in one unit, for errors relative to their size.
+struct StatePart {
+  std::size_t size = 0;
+  double share = 1.0;  // where kinds are mixed: the smallest one's size over the whole part's
+};
+
 // y' = A y + g(t), applied without forming A.
 class LinearOperator {
  public:
@@ -48,6 +54,17 @@ class LinearOperator {
   virtual void chain(std::span<const Sweep> sweeps) {
     for (const Sweep& s : sweeps) fma(s.h, s.x, s.base, s.forcing, s.out, s.result);
   }
+
+  // From the state's beginning to its end, at most 16; none: one part. The same for the operator's life.
+  virtual std::span<const StatePart> parts() const { return {}; }
+};
+
+// What `exponential` has to know: a box that holds the spectrum, -rate <= Re s <= 0 and |Im s| <= frequency,
+// and the error allowed a step, relative to the largest size so far of each part of the state.
+struct ExponentialSettings {
+  double frequency = 0.0;  // [1/s]
+  double rate = 0.0;       // [1/s]
+  double tolerance = 1e-12;
 };
 
 class Integrator {
@@ -56,12 +73,16 @@ class Integrator {
   // y(t) -> y(t + h). `rate` = y'(t) where the caller has it already (saves one evaluation), else empty.
   virtual void step(LinearOperator& op, double t, double h, std::span<double> y,
                     std::span<const double> rate) = 0;
+  // False where the last step missed the accuracy asked for; the state is then short of t + h.
+  virtual bool converged() const { return true; }
   virtual std::string_view name() const = 0;
-  virtual int order() const = 0;
-  virtual int evaluations_per_step() const = 0;
+  // 0 where a step takes as many evaluations as its tolerance wants.
+  virtual int order() const { return 0; }
+  virtual int evaluations_per_step() const { return 0; }
 };
 
-// The integrator for a state of `size` numbers; all its memory is taken here.
-std::unique_ptr<Integrator> make_integrator(IntegratorKind kind, std::size_t size);
+// The integrator for a state of `size` numbers; all its memory is taken here. The settings are exponential's.
+std::unique_ptr<Integrator> make_integrator(IntegratorKind kind, std::size_t size,
+                                            const ExponentialSettings& settings = {});
 
 }  // namespace rheo

@@ -91,7 +91,7 @@ struct Probe {
   std::string where;
 };
 
-enum class IntegratorKind { rk4, euler };
+enum class IntegratorKind { rk4, euler, exponential };
 enum class ConstraintMethod {
   automatic,  // eliminate what can be, Baumgarte for the general ones
   baumgarte   // equation (4) for all of them
@@ -101,8 +101,9 @@ struct TimeSettings {
   double duration = 0.0;     // [s], > 0, finite
   double frame_rate = 60.0;  // outputs per second
   IntegratorKind integrator = IntegratorKind::rk4;
-  double step = 0.0;        // upper bound [s]; 0: a quarter of the stable limit
-  double baumgarte = 20.0;  // omega [1/s]
+  double step = 0.0;         // upper bound [s]; 0: a quarter of the stable limit, exponential: none
+  double tolerance = 1e-10;  // exponential: relative error of a run
+  double baumgarte = 20.0;   // omega [1/s]
   ConstraintMethod constraints = ConstraintMethod::automatic;
   std::string where;  // for messages about the step: "beam.toml:31: [time]"
 };
@@ -137,6 +138,9 @@ inline constexpr double max_outputs = 1e7;  // duration * frame_rate
 inline constexpr double max_steps = 1e12;   // duration / step
 inline constexpr int min_picture_side = 16;
 inline constexpr int max_picture_side = 16384;
+
+inline constexpr double finest_tolerance = 1e-13;  // below it rounding rules
+inline constexpr double coarsest_tolerance = 0.1;
 
 // The settings alone, for values that come from elsewhere than a scene file (a command line, a panel).
 void validate(const TimeSettings& time);

@@ -33,13 +33,15 @@ struct Energies {
   double stored = 0.0;      // 1/2 w_l^T J_l w_l / lambda_ela + 1/2 w_m^T J_m w_m / mu_ela
   double dissipated = 0.0;  // since the start, by a quadrature of the integrator's order
   double work = 0.0;        // of loads, moving constraints and impulses, since the start, likewise
+  // Not known (NaN) with the exponential integrator, whose steps are too long for a quadrature: dissipated,
+  // unless nothing relaxes; work, where nodes are moved or a traction has several keys.
 };
 
 struct Divergence {
   double t = 0.0;            // when it was noticed [s]
   int node = 0;              // the fastest node, or the first with a non-finite number
   double energy = 0.0;       // kinetic + stored
-  double allowed = 0.0;      // what the start and the work done can explain
+  double allowed = 0.0;      // what the start and the work done can explain, where the work is known
   double stable_step = 0.0;  // the largest stable step of the integrator in use
 };
 
@@ -79,7 +81,8 @@ class Simulation {
   const Scene& scene() const;
 
   // The stable limits (over all sets of constraints that the scene goes through) and the largest step that
-  // will be used.
+  // will be used; both infinite for the exponential integrator (then from event to event and output to
+  // output), the second unless a step is given.
   const Spectrum& spectrum() const;
   double stable_step() const;
   double step_bound() const;

@@ -35,7 +35,7 @@ struct Spectrum {
 };
 
 // Largest h with |R(h s)| <= 1 for every s that `spectrum` allows; 0 where no step is stable (Euler without
-// damping in some mode), infinite where every step is.
+// damping in some mode), infinite where every step is (exponential: always).
 double stable_step(const Spectrum& spectrum, IntegratorKind integrator);
 
 // The same for one eigenvalue s (Re s <= 0), used above and by the tests on exact spectra.

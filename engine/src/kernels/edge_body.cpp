@@ -43,6 +43,14 @@ EdgeBody::EdgeBody(const Model& model, const EdgeForce& force)
 
   corner_begin_ = block_begins(form_, form_.corners);
   const Material& m = model.material;
+  const double l = m.lambda_rate();
+  const double r = m.mu_rate();
+  // p mixes w_lambda and w_mu: driven alike by v, their sizes are as ela / (rate + fastest rate of v) at
+  // least.
+  const auto reach = [&](double ela, double rate) { return ela / (rate + model.element_omega); };
+  const double least = std::min(reach(m.lambda_ela, l), reach(m.mu_ela, r));
+  const double most = std::max(reach(m.lambda_ela, l), reach(m.mu_ela, r));
+  parts_ = {StatePart{4 * n, least > 0.0 ? least / most : 1.0}, StatePart{2 * n, 1.0}, StatePart{2 * n, 1.0}};
   for (int axis = 0; axis < 2; ++axis) {
     material_.growth[axis] = m.lambda_ela;
     material_.growth[2 + axis] = m.mu_ela;

@@ -3,6 +3,7 @@
 // Not here consistent mass, general constraints: AssembledBody
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "body.hpp"
@@ -23,6 +24,7 @@ class EdgeBody final : public Body {
   void fma(double h, std::span<const double> x, std::span<const double> base, const Forcing& forcing,
            std::span<double> out, Result result) override;
   void chain(std::span<const Sweep> sweeps) override;
+  std::span<const StatePart> parts() const override { return parts_; }
   EnergySample sample(double t) override;
   void reaction(double t, Vector& out) override;
 
@@ -41,6 +43,7 @@ class EdgeBody final : public Body {
   const EdgeForce& edge_force_;
   const EdgeForm& form_;
   SweepMaterial material_;
+  std::array<StatePart, 3> parts_;
   std::vector<double> mass_;          // n x 2, kernel order
   std::vector<double> inverse_mass_;  // n x 2, zero where held
 

@@ -1,0 +1,231 @@
+#include "exponential.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "chebyshev.hpp"
+
+namespace rheo {
+namespace {
+
+constexpr std::size_t most_terms = 512;
+constexpr double longest_z = 256.0;      // imaginary: longer steps save little more and round worse
+constexpr double longest_real = 1500.0;  // real: sqrt(2 z ln(1 / tolerance)) terms have to fit
+constexpr double widest = 2.0;           // half width times H across the axis
+constexpr double negligible_rate = 0.5;  // rate times H below which the shift is not worth its cost
+constexpr double rounding = std::numeric_limits<double>::epsilon();
+constexpr std::size_t first_look_at_size = 8;
+constexpr int most_retries = 16;
+constexpr std::size_t most_parts = 16;  // of a state
+
+double norm(const double* x, std::size_t size) {
+  // Four sums: independent additions, and smaller rounding.
+  double s[4] = {};
+  std::size_t i = 0;
+  for (; i + 4 <= size; i += 4) {
+    for (std::size_t k = 0; k < 4; ++k) s[k] += x[i + k] * x[i + k];
+  }
+  for (; i < size; ++i) s[0] += x[i] * x[i];
+  return std::sqrt((s[0] + s[1]) + (s[2] + s[3]));
+}
+
+}  // namespace
+
+Exponential::Exponential(std::size_t size, const ExponentialSettings& settings)
+    : settings_(settings),
+      coefficients_(most_terms),
+      remainders_(most_terms + 1),
+      a_(size),
+      b_(size),
+      sum_(size),
+      scale_(most_parts, 0.0),
+      peak_(most_parts),
+      rest_(most_parts),
+      sum_scale_(most_parts) {
+  assert(settings.frequency >= 0.0 && settings.rate >= 0.0 && settings.tolerance > 0.0);
+}
+
+int Exponential::parts_of(double h, Axis& axis) const {
+  const double half = 0.5 * settings_.rate;
+  const double frequency = settings_.frequency;
+  const double imaginary = std::ceil(
+      std::max({1.0, h * half / (widest * shortening_), h * frequency / (longest_z * shortening_)}));
+  const double real = std::ceil(
+      std::max({1.0, h * frequency / (2.0 * widest * shortening_), h * half / (longest_real * shortening_)}));
+  const double digits = -std::log(settings_.tolerance);
+  const double cost_imaginary = imaginary * (h / imaginary * frequency + digits);
+  const double cost_real = real * (std::sqrt(2.0 * h / real * half * digits) + 0.5 * digits);
+  axis = cost_real < cost_imaginary ? Axis::real : Axis::imaginary;
+  return static_cast<int>(std::min(axis == Axis::real ? real : imaginary, 1e9));
+}
+
+void Exponential::make_plan(double h, int parts, Axis axis) {
+  if (h == planned_for_ && parts == planned_parts_) return;
+  planned_for_ = h;
+  planned_parts_ = parts;
+  const double half = 0.5 * settings_.rate;
+  Plan& p = plan_;
+  p.axis = axis;
+  p.tolerance = std::max(settings_.tolerance / parts, 0.1 * rounding);
+  double across = 0.0;
+  // A radius above the box only adds terms; z >= 1 keeps the recurrence well scaled.
+  if (axis == Axis::imaginary) {
+    p.shift = settings_.rate * h > negligible_rate ? half : 0.0;
+    p.radius = std::max(settings_.frequency, 1.0 / h);
+    across = p.shift > 0.0 ? half : settings_.rate;
+  } else {
+    p.shift = half;
+    p.radius = std::max(half, 1.0 / h);
+    across = settings_.frequency;
+  }
+  const double slope = across / p.radius;
+  p.growth = slope + std::sqrt(1.0 + slope * slope);
+
+  const double z = p.radius * h;
+  double damping = 1.0;
+  if (axis == Axis::imaginary) {
+    bessel_j(z, coefficients_);
+    damping = std::exp(-p.shift * h);
+  } else {
+    bessel_i_scaled(z, coefficients_);
+    damping = std::exp((p.radius - p.shift) * h);
+  }
+  for (std::size_t k = 0; k < most_terms; ++k) {
+    const bool negative = axis == Axis::real && k / 2 % 2 == 1;
+    coefficients_[k] *= damping * (k == 0 ? 1.0 : 2.0) * (negative ? -1.0 : 1.0);
+  }
+  remainders_[most_terms] = 0.0;
+  for (std::size_t k = most_terms; k-- > 0;)
+    remainders_[k] = std::abs(coefficients_[k]) + p.growth * remainders_[k + 1];
+  // The earliest that could do: terms that have not grown at all.
+  std::size_t first = 1;
+  while (first + 1 < most_terms && remainders_[first + 1] > p.tolerance) ++first;
+  p.first_look = first;
+}
+
+void Exponential::advance(LinearOperator& op, double t, double h, std::size_t k, std::span<const double> v,
+                          std::span<double> before) {
+  const double sign = plan_.axis == Axis::real && k % 2 == 1 ? -1.0 : 1.0;
+  const double factor = sign * (k == 0 ? 1.0 : 2.0) / plan_.radius;
+  op.fma(factor, v, before, {t, {c_[0], c_[1] * h, c_[2] * h * h, c_[3] * h * h * h}}, before, Result::step);
+  if (plan_.shift != 0.0) {
+    const double shift = factor * plan_.shift;
+    for (std::size_t i = 0; i < v.size(); ++i) before[i] += shift * v[i];
+  }
+  for (std::size_t j = 4; j-- > 0;) {
+    const double slope = (j > 0 ? c_[j - 1] / h : 0.0) + plan_.shift * c_[j];
+    c_before_[j] += factor * slope;
+  }
+  std::swap(c_, c_before_);
+}
+
+void Exponential::include(std::span<const StatePart> parts, double factor, std::span<const double> x,
+                          std::vector<double>& largest) {
+  std::size_t begin = 0;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const double size = factor * norm(x.data() + begin, parts[p].size);
+    if (!(size <= largest[p])) largest[p] = size;  // NaN stays
+    begin += parts[p].size;
+  }
+}
+
+Exponential::Outcome Exponential::judge(std::span<const StatePart> parts, std::size_t k) {
+  const double factor = plan_.growth * remainders_[k + 1];
+  std::fill(rest_.begin(), rest_.end(), 0.0);
+  include(parts, factor, a_, rest_);
+  include(parts, factor, b_, rest_);
+  std::copy(scale_.begin(), scale_.end(), sum_scale_.begin());
+  include(parts, 1.0, sum_, sum_scale_);
+  // Terms that outgrow the sum take its digits with them by rounding, whatever is left out.
+  const double lost_to_rounding = rounding / (0.1 * std::max(settings_.tolerance, 1e-12));
+  Outcome outcome = Outcome::done;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    const double size = parts[p].share * sum_scale_[p];
+    if (std::isnan(rest_[p])) return Outcome::lost;
+    if (!(rest_[p] <= plan_.tolerance * size)) outcome = Outcome::more;
+  }
+  if (outcome == Outcome::more) return outcome;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (!(lost_to_rounding * peak_[p] <= parts[p].share * sum_scale_[p])) return Outcome::lost;
+  }
+  std::swap(scale_, sum_scale_);
+  return Outcome::done;
+}
+
+bool Exponential::expand(LinearOperator& op, double t, double h, std::span<const double> y,
+                         std::span<const double> rate) {
+  const std::size_t size = y.size();
+  const StatePart whole{size, 1.0};
+  const std::span<const StatePart> parts = op.parts().empty() ? std::span(&whole, 1) : op.parts();
+  assert(parts.size() <= most_parts);
+  include(parts, 1.0, y, scale_);
+  std::fill(peak_.begin(), peak_.end(), 0.0);
+  c_ = {1.0, 0.0, 0.0, 0.0};
+  c_before_ = {};
+  if (rate.empty()) {
+    std::fill(a_.begin(), a_.end(), 0.0);
+    advance(op, t, h, 0, y, a_);
+  } else {
+    const double factor = 1.0 / plan_.radius;
+    for (std::size_t i = 0; i < size; ++i) a_[i] = factor * (rate[i] + plan_.shift * y[i]);
+    c_ = {factor * plan_.shift, factor / h, 0.0, 0.0};
+    c_before_ = {1.0, 0.0, 0.0, 0.0};
+  }
+  for (std::size_t i = 0; i < size; ++i) sum_[i] = coefficients_[0] * y[i] + coefficients_[1] * a_[i];
+  std::copy(y.begin(), y.end(), b_.begin());
+
+  std::size_t look = first_look_at_size;
+  for (std::size_t k = 1; k + 3 < most_terms; k += 2) {
+    if (k >= look) {
+      const double factor = std::max(std::abs(coefficients_[k]), std::abs(coefficients_[k - 1]));
+      include(parts, factor, a_, peak_);
+      include(parts, factor, b_, peak_);
+      look += look < 4 * first_look_at_size ? first_look_at_size : 2 * first_look_at_size;
+    }
+    if (k >= plan_.first_look) {
+      const Outcome outcome = judge(parts, k);
+      if (outcome != Outcome::more) return outcome == Outcome::done;
+    }
+    advance(op, t, h, k, a_, b_);
+    advance(op, t, h, k + 1, b_, a_);
+    const double even = coefficients_[k + 1];
+    const double odd = coefficients_[k + 2];
+    for (std::size_t i = 0; i < size; ++i) sum_[i] += even * b_[i] + odd * a_[i];
+  }
+  return false;
+}
+
+void Exponential::step(LinearOperator& op, double t, double h, std::span<double> y,
+                       std::span<const double> rate) {
+  assert(y.size() == sum_.size());
+  converged_ = true;
+  double done = 0.0;
+  int retries = 0;
+  while (done < h) {
+    Axis axis{};
+    const double begin = done;
+    const int parts = parts_of(h - begin, axis);
+    const double length = (h - begin) / parts;
+    make_plan(length, parts, axis);
+    for (int k = 0; k < parts; ++k) {
+      const bool fresh = begin == 0.0 && k == 0;
+      if (!expand(op, t + done, length, y, fresh ? rate : std::span<const double>())) {
+        // The box did not hold the spectrum, or the step was too long for it.
+        if (++retries > most_retries) {
+          converged_ = false;
+          return;
+        }
+        settings_.frequency = std::max(1.25 * settings_.frequency, 1.0 / length);
+        shortening_ = std::max(0.5 * shortening_, 0x1p-10);
+        planned_for_ = 0.0;
+        break;
+      }
+      std::copy(sum_.begin(), sum_.end(), y.begin());
+      done = k + 1 == parts ? h : begin + (k + 1) * length;
+    }
+  }
+}
+
+}  // namespace rheo

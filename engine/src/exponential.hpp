@@ -1,0 +1,87 @@
+// y(t + H) = exp(H A) y + forcing by a Chebyshev expansion, to a tolerance instead of an order.
+//
+//   exp(H A) y = exp(-H s) exp(H B) y,   B = A + s,
+//   imaginary interval:  exp(H B) = J_0(z) V_0 + 2 sum J_k(z) V_k,         V_{k+1} =  (2 / R) B V_k + V_{k-1}
+//   real interval:       exp(H B) = I_0(z) V_0 + 2 sum +- I_k(z) V_k,      V_{k+1} = +-(2 / R) B V_k +
+//   V_{k-1} z = R H,  V_0 = y,  V_1 = B V_0 / R
+//
+// The spectrum of A lies in the box -rate <= Re <= 0, |Im| <= frequency (integrator.hpp). Imaginary: R >=
+// frequency, s = rate / 2, or 0 where rate H is small; about R H evaluations and some twenty more. Real: R >=
+// rate / 2 = s, where rates dominate; about sqrt(2 R H ln(1 / tolerance)). The box's other half width
+// times H stays below 2 so that terms do not grow beyond the sum: longer steps are taken in equal parts.
+//
+// Forcing that is a cubic in time between events joins the state: c_0' = 0, c_k' = c_{k-1}, c_k(0) = [k = 0],
+// y' = A y + sum c_k g^(k)(t).
+//
+// How many terms: from what the remaining coefficients can add at most, given the size of the last two V_k,
+// part by part of the state (LinearOperator::parts), relative to that part's largest size so far. Where the
+// terms outgrow the sum (the box was too small) the part of the step is done again with a wider box and a
+// shorter step.
+//
+// Source   Tal-Ezer, 1989 (imaginary and real intervals); Bergamaschi and Vianello, 2000 (real)
+// Shapes   scale_, peak_, rest_, sum_scale_: one a part of the state
+// Errors   converged() is false where that does not help: y stays at the last part of the step that was well
+// Not here constraints by Baumgarte (their forcing is not a cubic)
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "rheo/integrator.hpp"
+
+namespace rheo {
+
+class Exponential final : public Integrator {
+ public:
+  Exponential(std::size_t size, const ExponentialSettings& settings);
+
+  void step(LinearOperator& op, double t, double h, std::span<double> y,
+            std::span<const double> rate) override;
+  bool converged() const override { return converged_; }
+  std::string_view name() const override { return "exponential"; }
+
+ private:
+  enum class Axis { imaginary, real };
+
+  // How one part of a step of a given length is done.
+  struct Plan {
+    Axis axis = Axis::imaginary;
+    double radius = 0.0;         // R
+    double shift = 0.0;          // s
+    double growth = 1.0;         // of |V_k| from k to k + 1 at most, in the box's middle
+    double tolerance = 0.0;      // of one part
+    std::size_t first_look = 1;  // k from which the remainder may be small enough
+  };
+
+  // How many equal parts a step of h takes, and along which axis.
+  int parts_of(double h, Axis& axis) const;
+  void make_plan(double h, int parts, Axis axis);
+  // y -> y(t + h) in sum_; false where the terms do not settle.
+  bool expand(LinearOperator& op, double t, double h, std::span<const double> y,
+              std::span<const double> rate);
+  // V_{k+1} into `before`, which holds V_{k-1}.
+  void advance(LinearOperator& op, double t, double h, std::size_t k, std::span<const double> v,
+               std::span<double> before);
+  enum class Outcome { more, done, lost };
+  // Of the sum up to V_k, where a_ and b_ hold V_k and V_{k-1}.
+  Outcome judge(std::span<const StatePart> parts, std::size_t k);
+  // largest[p] = max(largest[p], factor |x's part p|)
+  static void include(std::span<const StatePart> parts, double factor, std::span<const double> x,
+                      std::vector<double>& largest);
+
+  ExponentialSettings settings_;
+  Plan plan_;
+  double planned_for_ = 0.0;
+  int planned_parts_ = 0;
+  double shortening_ = 1.0;                 // of the longest part, after a failure
+  std::vector<double> coefficients_;        // of V_k, signs and exp(-H s) included
+  std::vector<double> remainders_;          // sum over j >= k of |coefficient_j| growth^(j - k)
+  std::vector<double> a_, b_, sum_;         // V_k for odd and even k, the sum so far
+  std::array<double, 4> c_{}, c_before_{};  // of V_k and V_{k-1}: c_j / H^j
+  std::vector<double> scale_;               // size of y so far
+  std::vector<double> peak_;                // of the terms of this sum
+  std::vector<double> rest_, sum_scale_;    // of what is left out, of the sum
+  bool converged_ = true;
+};
+
+}  // namespace rheo
