@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "colormap.hpp"
 #include "theme.hpp"
@@ -29,37 +31,82 @@ bool near_picture(const Canvas& canvas, Point p) {
 
 }  // namespace
 
-void draw_hatches(Canvas& canvas, const Camera& camera, std::span<const int> boundary,
+namespace {
+
+// A run of held edges as points in the picture, and the strokes along it.
+class HatchedRun {
+ public:
+  void add(Point p) {
+    if (points_.empty()) points_.push_back(p);
+    const Point q = points_.back();
+    const float size = std::hypot(p.x - q.x, p.y - q.y);
+    if (size < 1e-3f) return;  // not worth a direction; its length counts with the next one
+    points_.push_back(p);
+    length_ += size;
+  }
+
+  // As many strokes as suit the spacing best, the first and the last one half a step from the ends.
+  void draw(Canvas& canvas) const {
+    if (points_.size() < 2) return;
+    const float reach = 9 * canvas.unit(), width = std::max(1.0f, 1.3f * canvas.unit());
+    const float step = length_ / std::max(1.0f, std::round(length_ / (9 * canvas.unit())));
+    float next = step / 2;  // of the next stroke, from the start of the segment
+    for (std::size_t i = 1; i < points_.size(); ++i) {
+      const Point a = points_[i - 1], b = points_[i];
+      const float dx = b.x - a.x, dy = b.y - a.y, size = std::hypot(dx, dy);
+      const float tx = dx / size, ty = dy / size;
+      const float nx = -ty, ny = tx;  // outward: the interior is on the left, and pixels count downwards
+      for (; next < size; next += step) {
+        const Point from{a.x + tx * next, a.y + ty * next};
+        const Point to{from.x + (nx - tx) * 0.72f * reach, from.y + (ny - ty) * 0.72f * reach};
+        canvas.line(from, to, theme::soft_ink, width);
+      }
+      next -= size;
+    }
+  }
+
+ private:
+  std::vector<Point> points_;
+  float length_ = 0;
+};
+
+}  // namespace
+
+void draw_hatches(Canvas& canvas, const Camera& camera, const BoundaryChains& boundary,
                   std::span<const double> positions, std::span<const int> held, std::vector<char>& mark) {
   if (held.empty()) return;
   enum : char { free_node, held_node, hatched_node };
   mark.assign(positions.size() / 2, free_node);
   for (const int node : held) mark[static_cast<std::size_t>(node)] = held_node;
 
-  const float spacing = 9 * canvas.unit(), reach = 9 * canvas.unit(),
-              width = std::max(1.0f, 1.3f * canvas.unit());
-  float phase = spacing / 2;  // of the next stroke along the edge, carried over from edge to edge
-  for (std::size_t e = 0; e + 1 < boundary.size(); e += 2) {
-    char& mark_a = mark[static_cast<std::size_t>(boundary[e])];
-    char& mark_b = mark[static_cast<std::size_t>(boundary[e + 1])];
-    const Point a = node_pixel(camera, positions, boundary[e]),
-                b = node_pixel(camera, positions, boundary[e + 1]);
-    if (mark_a == free_node || mark_b == free_node || !near_picture(canvas, a) || !near_picture(canvas, b)) {
-      phase = spacing / 2;
-      continue;
+  const auto is_held = [&](std::size_t e) {
+    for (const int node : {boundary.edges[2 * e], boundary.edges[2 * e + 1]}) {
+      if (mark[static_cast<std::size_t>(node)] == free_node ||
+          !near_picture(canvas, node_pixel(camera, positions, node)))
+        return false;
     }
-    mark_a = mark_b = hatched_node;
-    const float dx = b.x - a.x, dy = b.y - a.y, size = std::hypot(dx, dy);
-    if (size < 1e-3f) continue;
-    const float tx = dx / size, ty = dy / size;
-    const float nx = -ty, ny = tx;  // outward: the interior is on the left, and pixels count downwards
-    float s = phase;
-    for (; s < size; s += spacing) {
-      const Point from{a.x + tx * s, a.y + ty * s};
-      const Point to{from.x + (nx - tx) * 0.72f * reach, from.y + (ny - ty) * 0.72f * reach};
-      canvas.line(from, to, theme::soft_ink, width);
+    return true;
+  };
+  for (std::size_t chain = 0; chain < boundary.count(); ++chain) {
+    const std::size_t begin = boundary.offsets[chain], size = boundary.size(chain);
+    std::size_t first = 0;  // a run that goes on beyond a loop's first edge is not to be cut there
+    if (boundary.closed(chain)) {
+      while (first < size && is_held(begin + first)) ++first;
     }
-    phase = s - size;
+    HatchedRun run;
+    for (std::size_t k = 0; k < size; ++k) {
+      const std::size_t e = begin + (first + k) % size;
+      if (!is_held(e)) {
+        run.draw(canvas);
+        run = {};
+        continue;
+      }
+      for (const int node : {boundary.edges[2 * e], boundary.edges[2 * e + 1]}) {
+        run.add(node_pixel(camera, positions, node));
+        mark[static_cast<std::size_t>(node)] = hatched_node;
+      }
+    }
+    run.draw(canvas);
   }
   const float radius = 4 * canvas.unit();
   for (const int node : held) {
@@ -69,9 +116,66 @@ void draw_hatches(Canvas& canvas, const Camera& camera, std::span<const int> bou
   }
 }
 
-// The outward normal, at rest, of the boundary edge that the arrow stands on: the nearest one by its middle.
-std::array<double, 2> TractionArrows::outward_normal(std::span<const double> positions,
-                                                     const TractionArrow& arrow, std::size_t k) {
+namespace {
+
+double largest_traction(std::span<const TractionArrow> arrows) {
+  double largest = 0;
+  for (const TractionArrow& arrow : arrows) {
+    const double size = std::hypot(arrow.vector[0], arrow.vector[1]);
+    if (std::isfinite(size)) largest = std::max(largest, size);
+  }
+  return largest;
+}
+
+double usable_scale(double scale, double largest) {
+  return scale > 0 && std::isfinite(scale) ? scale : largest;
+}
+
+// Too weak to be seen, or no number.
+bool is_drawn(const TractionArrow& arrow, double scale) {
+  const double size = std::hypot(arrow.vector[0], arrow.vector[1]);
+  return size > 1e-3 * scale && std::isfinite(size) && std::isfinite(arrow.at[0]) &&
+         std::isfinite(arrow.at[1]);
+}
+
+float head_length(float length, float unit) {
+  return std::min(11 * unit, 0.55f * length);
+}
+
+float head_half_width(float length, float unit) {
+  return 0.42f * head_length(length, unit);
+}
+
+}  // namespace
+
+TractionArrows::TractionArrows(std::vector<int> boundary, std::span<const int> triangles,
+                               std::vector<double> rest)
+    : boundary_(std::move(boundary)), opposite_(boundary_.size() / 2, -1), rest_(std::move(rest)) {
+  std::map<std::pair<int, int>, std::size_t> edges;  // by their nodes, the smaller one first
+  std::vector<char> outside(rest_.size() / 2, 0);
+  for (std::size_t e = 0; e < opposite_.size(); ++e) {
+    const int a = boundary_[2 * e], b = boundary_[2 * e + 1];
+    edges.try_emplace(std::minmax(a, b), e);
+    outside[static_cast<std::size_t>(a)] = outside[static_cast<std::size_t>(b)] = 1;
+  }
+  for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int a = triangles[t + k], b = triangles[t + (k + 1) % 3];
+      if (!outside[static_cast<std::size_t>(a)] || !outside[static_cast<std::size_t>(b)]) continue;
+      const auto edge = edges.find(std::minmax(a, b));
+      if (edge != edges.end()) opposite_[edge->second] = triangles[t + (k + 2) % 3];
+    }
+  }
+}
+
+// The outward normal of the boundary edge that the arrow stands on, the nearest one by its middle: the normal
+// at rest, turned as the edge's triangle has turned. (The deformed edge's own normal would change sides where
+// a body turns inside out.) With x = F X over the triangle the nearest rotation to F has the angle
+//
+//   atan2(F_yx - F_xy, F_xx + F_yy)
+std::array<double, 2> TractionArrows::outward_normal(const MeshFrame& frame, std::size_t k) {
+  const std::span<const double> positions = frame.positions;
+  const TractionArrow& arrow = frame.arrows[k];
   const auto ends = [&](std::span<const double> points, std::size_t e) {
     const auto a = 2 * static_cast<std::size_t>(boundary_[2 * e]);
     const auto b = 2 * static_cast<std::size_t>(boundary_[2 * e + 1]);
@@ -100,55 +204,91 @@ std::array<double, 2> TractionArrows::outward_normal(std::span<const double> pos
   const auto [ax, ay, bx, by] = ends(rest_, edge_[k]);
   const double size = std::hypot(bx - ax, by - ay);
   if (!(size > 0)) return {0, 0};
-  return {(by - ay) / size, -(bx - ax) / size};
+  const double nx = (by - ay) / size, ny = -(bx - ax) / size;
+  if (opposite_[edge_[k]] < 0) return {nx, ny};
+
+  // Columns: the edge, and from its start to the third node; d deformed, r at rest. F = d r^-1.
+  const auto columns = [&](std::span<const double> points) {
+    const auto [x, y, x1, y1] = ends(points, edge_[k]);
+    const auto c = 2 * static_cast<std::size_t>(opposite_[edge_[k]]);
+    return std::array<double, 4>{x1 - x, y1 - y, points[c] - x, points[c + 1] - y};
+  };
+  const auto r = columns(rest_), d = columns(positions);
+  const double area = r[0] * r[3] - r[1] * r[2];
+  if (!((d[0] * d[3] - d[1] * d[2]) * area > 0)) return {nx, ny};  // turned inside out, or no numbers
+  const double xx = (d[0] * r[3] - d[2] * r[1]) / area, xy = (d[2] * r[0] - d[0] * r[2]) / area;
+  const double yx = (d[1] * r[3] - d[3] * r[1]) / area, yy = (d[3] * r[0] - d[1] * r[2]) / area;
+  const double angle = std::atan2(yx - xy, xx + yy), c = std::cos(angle), s = std::sin(angle);
+  return {c * nx - s * ny, s * nx + c * ny};
 }
 
-void TractionArrows::draw(Canvas& canvas, const Camera& camera, std::span<const double> positions,
-                          std::span<const TractionArrow> arrows, double scale, float longest,
-                          const Rect& value_area) {
-  edge_.resize(arrows.size(), std::numeric_limits<std::size_t>::max());
-  double largest = 0;
-  for (const TractionArrow& arrow : arrows) {
-    const double size = std::hypot(arrow.vector[0], arrow.vector[1]);
-    if (std::isfinite(size)) largest = std::max(largest, size);
+TractionArrows::Shape TractionArrows::shape(const MeshFrame& frame, std::size_t k, double scale,
+                                            float longest, float unit) {
+  const TractionArrow& arrow = frame.arrows[k];
+  edge_.resize(std::max(edge_.size(), frame.arrows.size()), std::numeric_limits<std::size_t>::max());
+  const double size = std::hypot(arrow.vector[0], arrow.vector[1]);
+  const float length = std::max(longest * static_cast<float>(std::min(size / scale, 1.5)), 9 * unit);
+  const float ux = static_cast<float>(arrow.vector[0] / size),
+              uy = static_cast<float>(-arrow.vector[1] / size);
+  const std::array<double, 2> normal = outward_normal(frame, k);
+  Shape s;
+  s.presses = normal[0] * arrow.vector[0] + normal[1] * arrow.vector[1] < -0.1 * size;
+  const float gap = 2.5f * unit;  // clear of the outline
+  const float tip = s.presses ? -gap : length + gap;
+  s.tip = {ux * tip, uy * tip};
+  s.tail = {ux * (tip - length), uy * (tip - length)};
+  return s;
+}
+
+void TractionArrows::add_to(Framing& framing, const Canvas& canvas, const MeshFrame& frame, double scale,
+                            float longest) {
+  scale = usable_scale(scale, largest_traction(frame.arrows));
+  for (std::size_t k = 0; k < frame.arrows.size(); ++k) {
+    const TractionArrow& arrow = frame.arrows[k];
+    if (!is_drawn(arrow, scale)) continue;
+    const Point end = shape(frame, k, scale, longest, canvas.unit()).outer();
+    const float side = head_half_width(longest, canvas.unit()) + 2 * canvas.unit();
+    const auto reach = [side](float pixels) { return std::max(pixels, 0.0f) + side; };
+    framing.add(arrow.at[0], arrow.at[1], {reach(-end.x), reach(-end.y), reach(end.x), reach(end.y)});
   }
+}
+
+void TractionArrows::draw(Canvas& canvas, const Camera& camera, const MeshFrame& frame, double scale,
+                          float longest, const Rect& value_area) {
+  const double largest = largest_traction(frame.arrows);
   if (!(largest > 0)) return;
-  if (!(scale > 0) || !std::isfinite(scale)) scale = largest;
+  scale = usable_scale(scale, largest);
 
   const float unit = canvas.unit(), width = std::max(1.6f, 2.4f * unit);
   const float apart = 9 * unit;
   std::vector<Point> feet;
   struct Drawn {
     Point outer;
-    std::array<float, 2> away;  // from the body
+    Point away;  // from the body
   };
   std::vector<Drawn> strongest;
   float left = std::numeric_limits<float>::infinity(), right = -left, top = left;  // what the strongest cover
-  for (std::size_t k = 0; k < arrows.size(); ++k) {
-    const TractionArrow& arrow = arrows[k];
-    const double size = std::hypot(arrow.vector[0], arrow.vector[1]);
+  for (std::size_t k = 0; k < frame.arrows.size(); ++k) {
+    const TractionArrow& arrow = frame.arrows[k];
     const Point foot = camera.pixel(arrow.at[0], arrow.at[1]);
-    if (!(size > 1e-3 * scale) || !std::isfinite(size) || !near_picture(canvas, foot)) continue;
+    if (!is_drawn(arrow, scale) || !near_picture(canvas, foot)) continue;
     const bool close = std::any_of(feet.begin(), feet.end(),
                                    [&](Point p) { return std::hypot(p.x - foot.x, p.y - foot.y) < apart; });
     if (close) continue;
     feet.push_back(foot);
-    const float length = std::max(longest * static_cast<float>(std::min(size / scale, 1.5)), 9 * unit);
-    const float ux = static_cast<float>(arrow.vector[0] / size),
-                uy = static_cast<float>(-arrow.vector[1] / size);
-    const std::array<double, 2> normal = outward_normal(positions, arrow, k);
-    const bool presses = normal[0] * arrow.vector[0] + normal[1] * arrow.vector[1] < -0.1 * size;
-    const float gap = 2.5f * unit;  // clear of the outline
-    const Point tip = presses ? Point{foot.x - ux * gap, foot.y - uy * gap}
-                              : Point{foot.x + ux * (length + gap), foot.y + uy * (length + gap)};
-    const Point tail{tip.x - ux * length, tip.y - uy * length};
-    const float head = std::min(11 * unit, 0.55f * length), half = 0.42f * head;
+    const Shape about = shape(frame, k, scale, longest, unit);
+    const Point tail{foot.x + about.tail.x, foot.y + about.tail.y};
+    const Point tip{foot.x + about.tip.x, foot.y + about.tip.y};
+    const float length = std::hypot(tip.x - tail.x, tip.y - tail.y);
+    const float ux = (tip.x - tail.x) / length, uy = (tip.y - tail.y) / length;
+    const float head = head_length(length, unit), half = head_half_width(length, unit);
     const Point neck{tip.x - ux * head, tip.y - uy * head};
     canvas.line(tail, {tip.x - ux * head * 0.8f, tip.y - uy * head * 0.8f}, theme::force, width);
     canvas.triangle(tip, {neck.x - uy * half, neck.y + ux * half}, {neck.x + uy * half, neck.y - ux * half},
                     theme::force);
+    const double size = std::hypot(arrow.vector[0], arrow.vector[1]);
     if (size < (1 - 1e-9) * largest) continue;
-    strongest.push_back({presses ? tail : tip, {presses ? -ux : ux, presses ? -uy : uy}});
+    strongest.push_back({about.presses ? tail : tip, about.presses ? Point{-ux, -uy} : Point{ux, uy}});
     left = std::min({left, tail.x, tip.x});
     right = std::max({right, tail.x, tip.x});
     top = std::min({top, tail.y - half, tip.y - half});
@@ -160,8 +300,8 @@ void TractionArrows::draw(Canvas& canvas, const Camera& camera, std::span<const 
   const Drawn& chosen = strongest[strongest.size() / 2];
   const std::string value = with_unit(largest, "Pa");
   const float text = canvas.text_size(TextSize::small), w = canvas.text_width(TextSize::small, value);
-  float x = chosen.outer.x + chosen.away[0] * (w / 2 + 0.5f * text);
-  float y = chosen.outer.y + chosen.away[1] * 0.8f * text;
+  float x = chosen.outer.x + chosen.away.x * (w / 2 + 0.5f * text);
+  float y = chosen.outer.y + chosen.away.y * 0.8f * text;
   const auto inside = [](float v, float low, float high) { return v >= low && v <= high; };
   if (!inside(x, value_area.x0 + w / 2, value_area.x1 - w / 2) || !inside(y, value_area.y0, value_area.y1)) {
     x = (left + right) / 2;

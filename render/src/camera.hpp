@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "canvas.hpp"
 
@@ -22,10 +23,56 @@ struct Camera {
   }
 };
 
-// The largest scale at which `bounds` (x0, y0, x1, y1) fit into `area`, centred.
-Camera fit_camera(const std::array<double, 4>& bounds, const Rect& area);
+// Pixels beyond a point on its four sides.
+struct Margins {
+  float left = 0, top = 0, right = 0, bottom = 0;
+};
 
 // `bounds` made finite and not empty.
 std::array<double, 4> usable_bounds(std::array<double, 4> bounds);
+
+// What a picture must show: bounds in the plane, and points with something of a fixed size in pixels about
+// them (an arrow). The largest scale s at which all of it fits solves, for each axis with margins m and M,
+//
+//   max_i(s x_i + M_i) - min_i(s x_i - m_i) = length of the area
+class Framing {
+ public:
+  // `bounds`: x0, y0, x1, y1; as usable_bounds() makes them.
+  Framing(const std::array<double, 4>& bounds, const Margins& margins);
+
+  void add(double x, double y, const Margins& margins);  // left out unless it is within the bounds
+
+  // The largest scale, all of it centred in `area`. Margins are cut where they leave the bounds less than a
+  // fifth of it.
+  Camera fit(const Rect& area) const;
+
+  // What `camera` = fit(area) shows of it.
+  Rect covered(const Camera& camera, const Rect& area) const;
+
+ private:
+  // One side of one axis: points beyond which something reaches, none of them behind another in both numbers.
+  struct Reach {
+    double at;      // from the middle of the bounds towards this side [m]
+    double margin;  // pixels
+  };
+  class Side {
+   public:
+    void add(const Reach& reach);
+    double pixels(double scale, double cut) const;  // from the middle to the end of all that is here
+
+   private:
+    std::vector<Reach> reaches_;  // `at` falling, `margin` rising
+  };
+  struct Axis {
+    double scale;  // the largest
+    double cut;    // factor of the margins
+  };
+  static Axis fit(const Side& low, const Side& high, double extent, double length);
+  std::array<Axis, 2> axes(const Rect& area) const;
+
+  std::array<double, 4> bounds_;
+  double x0_, y0_;
+  Side left_, top_, right_, bottom_;
+};
 
 }  // namespace render

@@ -27,9 +27,27 @@ void check_picture_size(const Gl& gl, int width, int height) {
   const int limit_x = std::min({texture, buffer, viewport[0]});
   const int limit_y = std::min({texture, buffer, viewport[1]});
   if (width > limit_x || height > limit_y) {
+    throw PictureTooLarge(fmt::format("a picture of {} x {} pixels is beyond this driver's limit of {} x {}",
+                                      width, height, limit_x, limit_y));
+  }
+}
+
+std::unique_ptr<Context> open_either(const Opener& first, const Opener& second) {
+  std::string reason;
+  std::string limit;
+  try {
+    return first();
+  } catch (const PictureTooLarge& error) {
+    limit = error.what();
+  } catch (const std::runtime_error& error) {
+    reason = error.what();
+  }
+  try {
+    return second();
+  } catch (const std::runtime_error& error) {
+    if (!limit.empty()) throw PictureTooLarge(limit);
     throw std::runtime_error(
-        fmt::format("a picture of {} x {} pixels is beyond this driver's limit of {} x {}", width, height,
-                    limit_x, limit_y));
+        fmt::format("no OpenGL for drawing without a window: {}; {}", reason, error.what()));
   }
 }
 
@@ -46,11 +64,7 @@ std::unique_ptr<Context> open_context(Backend backend, int width, int height) {
     case Backend::automatic:
       break;
   }
-  if (osmesa_present()) return open_osmesa(width, height);
-  if (egl_present()) return open_egl(width, height);
-  throw std::runtime_error(
-      "no OpenGL for drawing without a window: install the Debian package libosmesa6, or libegl1 with "
-      "libgl1-mesa-dri");
+  return open_either([=] { return open_osmesa(width, height); }, [=] { return open_egl(width, height); });
 }
 
 }  // namespace render

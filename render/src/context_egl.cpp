@@ -15,6 +15,7 @@
 namespace render {
 namespace {
 
+// It stays open: drivers do not survive being closed.
 void* open_library() {
   return dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
 }
@@ -149,10 +150,6 @@ class EglContext final : public Context {
 };
 
 }  // namespace
-
-bool egl_present() {
-  return open_library() != nullptr;
-}
 
 std::unique_ptr<Context> open_egl(int width, int height) {
   return std::make_unique<EglContext>(width, height);

@@ -22,6 +22,7 @@ using Address = GlFunction (*)(const char* name);
 constexpr int format = 0x22, depth_bits = 0x30, profile = 0x33, core_profile = 0x34;
 constexpr int version_major = 0x36, version_minor = 0x37;
 
+// It stays open: drivers do not survive being closed.
 void* open_library() {
   for (const char* name : {"libOSMesa.so.8", "libOSMesa.so.6"}) {
     if (void* library = dlopen(name, RTLD_NOW | RTLD_LOCAL)) return library;
@@ -55,15 +56,12 @@ class OsmesaContext final : public Context {
       gl_ = load_gl([address](const char* name) { return address(name); });
       check_picture_size(gl_, width, height);
     } catch (...) {
-      destroy_(context_);
+      release();
       throw;
     }
   }
 
-  ~OsmesaContext() override {
-    if (current_() == context_) make_current_(nullptr, nullptr, 0, 0, 0);
-    destroy_(context_);
-  }
+  ~OsmesaContext() override { release(); }
   OsmesaContext(const OsmesaContext&) = delete;
   OsmesaContext& operator=(const OsmesaContext&) = delete;
 
@@ -82,6 +80,11 @@ class OsmesaContext final : public Context {
   }
 
  private:
+  void release() {
+    if (current_() == context_) make_current_(nullptr, nullptr, 0, 0, 0);
+    destroy_(context_);
+  }
+
   // OSMesa wants a buffer of its own; pictures are drawn into a framebuffer object instead, so a small one
   // will do.
   static constexpr int side = 16;
@@ -97,10 +100,6 @@ class OsmesaContext final : public Context {
 };
 
 }  // namespace
-
-bool osmesa_present() {
-  return open_library() != nullptr;
-}
 
 std::unique_ptr<Context> open_osmesa(int width, int height) {
   return std::make_unique<OsmesaContext>(width, height);

@@ -54,7 +54,8 @@ float colour_coordinate(double value, const std::array<double, 2>& range) {
 
 }  // namespace
 
-MeshPass::MeshPass(const Gl& gl, const MeshLayout& layout, int width, int height)
+MeshPass::MeshPass(const Gl& gl, const MeshLayout& layout, const BoundaryChains& boundary, int width,
+                   int height)
     : gl_(gl),
       width_(width),
       height_(height),
@@ -87,7 +88,7 @@ MeshPass::MeshPass(const Gl& gl, const MeshLayout& layout, int width, int height
   upload(rest_, layout.rest, {});
   upload_colors();
   upload_triangles(layout.triangles, layout.rest);
-  upload_boundary(layout.boundary, layout.rest);
+  upload_boundary(boundary, layout.rest);
 }
 
 void MeshPass::make_texture(NodeTexture& nodes) const {
@@ -166,25 +167,30 @@ void MeshPass::upload_triangles(std::span<const int> triangles, std::span<const 
                  GL_STATIC_DRAW);
 }
 
-void MeshPass::upload_boundary(std::span<const int> boundary, std::span<const double> rest) {
+void MeshPass::upload_boundary(const BoundaryChains& boundary, std::span<const double> rest) {
   struct Vertex {
     std::array<GLint, 3> ends;
     GLfloat along;
   };
   std::vector<Vertex> vertices;
-  vertices.reserve(boundary.size() * 3);
-  std::vector<GLint> next(node_count_, -1);  // where the edge that begins at a node ends
-  for (std::size_t e = 0; e + 1 < boundary.size(); e += 2)
-    next[static_cast<std::size_t>(boundary[e])] = boundary[e + 1];
-  double along = 0;
-  for (std::size_t e = 0; e + 1 < boundary.size(); e += 2) {
-    const auto a = static_cast<std::size_t>(boundary[e]), b = static_cast<std::size_t>(boundary[e + 1]);
-    assert(a < node_count_ && b < node_count_);
-    if (e > 0 && boundary[e - 1] != boundary[e]) along = 0;  // a new chain
-    for (int k = 0; k < 6; ++k)
-      vertices.push_back({{boundary[e], boundary[e + 1], next[b]}, static_cast<GLfloat>(along)});
-    const double size = std::hypot(rest[2 * b] - rest[2 * a], rest[2 * b + 1] - rest[2 * a + 1]);
-    if (std::isfinite(size)) along += size;
+  vertices.reserve(boundary.edges.size() * 3);
+  for (std::size_t chain = 0; chain < boundary.count(); ++chain) {
+    const std::size_t begin = boundary.offsets[chain], end = boundary.offsets[chain + 1];
+    double along = 0;
+    for (std::size_t e = begin; e < end; ++e) {
+      const auto a = static_cast<std::size_t>(boundary.edges[2 * e]);
+      const auto b = static_cast<std::size_t>(boundary.edges[2 * e + 1]);
+      assert(a < node_count_ && b < node_count_);
+      // The end of the edge that follows; -1 at the end of an open chain.
+      const GLint next = e + 1 < end              ? boundary.edges[2 * e + 3]
+                         : boundary.closed(chain) ? boundary.edges[2 * begin + 1]
+                                                  : -1;
+      for (int k = 0; k < 6; ++k)
+        vertices.push_back(
+            {{static_cast<GLint>(a), static_cast<GLint>(b), next}, static_cast<GLfloat>(along)});
+      const double size = std::hypot(rest[2 * b] - rest[2 * a], rest[2 * b + 1] - rest[2 * a + 1]);
+      if (std::isfinite(size)) along += size;
+    }
   }
   edge_vertex_count_ = static_cast<GLsizei>(vertices.size());
   gl_.BindVertexArray(line_array_.id());

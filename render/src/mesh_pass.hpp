@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "boundary_chains.hpp"
 #include "camera.hpp"
 #include "gl_object.hpp"
 #include "gl_program.hpp"
@@ -27,7 +28,7 @@ struct LineStyle {
 
 class MeshPass {
  public:
-  MeshPass(const Gl& gl, const MeshLayout& layout, int width, int height);
+  MeshPass(const Gl& gl, const MeshLayout& layout, const BoundaryChains& boundary, int width, int height);
 
   void set_nodes(std::span<const double> positions, std::span<const double> scalar);
   void fill(const Camera& camera, float line_width) const;
@@ -47,7 +48,7 @@ class MeshPass {
   void upload_colors() const;
   void upload_triangles(std::span<const int> triangles, std::span<const double> rest);
   void set_fill(const GlProgram& program) const;
-  void upload_boundary(std::span<const int> boundary, std::span<const double> rest);
+  void upload_boundary(const BoundaryChains& boundary, std::span<const double> rest);
   void lines(const Camera& camera, const LineStyle& style, const NodeTexture& nodes) const;
   void place(const GlProgram& program, const Camera& camera, const NodeTexture& nodes) const;
 

@@ -25,13 +25,13 @@ Context& current(Context& context) {
 // What of the layout is needed beyond the constructor: copies, for its spans end with the call.
 struct Body {
   explicit Body(const MeshLayout& layout)
-      : boundary(layout.boundary.begin(), layout.boundary.end()),
+      : boundary(chain_boundary(layout.boundary)),
         title(layout.title),
         bar{layout.scalar_name, layout.scalar_unit, layout.range},
         bounds(usable_bounds(layout.bounds)),
         arrow_scale(layout.arrow_scale) {}
 
-  std::vector<int> boundary;
+  BoundaryChains boundary;
   std::string title;
   ColorBar bar;
   std::array<double, 4> bounds;
@@ -47,8 +47,8 @@ struct MeshPicture::Impl {
         body(layout),
         target(gl, c.width(), c.height()),
         canvas(gl, c.width(), c.height(), layout.title + layout.scalar_name + layout.scalar_unit),
-        pass(gl, layout, c.width(), c.height()),
-        arrows(body.boundary, {layout.rest.begin(), layout.rest.end()}) {}
+        pass(gl, layout, body.boundary, c.width(), c.height()),
+        arrows(body.boundary.edges, layout.triangles, {layout.rest.begin(), layout.rest.end()}) {}
 
   // The picture's parts: the title line, the colour bar, and what is left for the body.
   struct Parts {
@@ -76,16 +76,13 @@ struct MeshPicture::Impl {
     return p;
   }
 
-  // Space about the bounds for hatches and lines, and for arrows: `across` and `up` are how far they may
-  // reach, as parts of the longest one.
-  Rect inner(const Rect& area, float across, float up) const {
-    const float edge = 0.9f * canvas.text_size(TextSize::normal);
-    const float px = std::min(edge + across * arrow_length(), 0.25f * area.width());
-    const float py = std::min(edge + up * arrow_length(), 0.25f * area.height());
-    return {area.x0 + px, area.y0 + py, area.x1 - px, area.y1 - py};
-  }
+  // The bounds with space about them.
+  Framing framing(float margin) const { return {body.bounds, {margin, margin, margin, margin}}; }
 
+  // Space for hatches and lines, and for as much again.
+  float line_room() const { return 0.6f * canvas.text_size(TextSize::normal); }
   float arrow_length() const { return 2.8f * canvas.text_size(TextSize::normal); }
+  float sheet_arrow_length() const { return 2.1f * canvas.text_size(TextSize::normal); }
 
   void begin() {
     context.make_current();
@@ -98,7 +95,7 @@ struct MeshPicture::Impl {
     gl.Clear(GL_COLOR_BUFFER_BIT);
   }
 
-  void draw_body(const Camera& camera, const MeshFrame& frame, const Rect& value_area) {
+  void draw_body(const Camera& camera, const MeshFrame& frame, float longest_arrow, const Rect& value_area) {
     const float unit = canvas.unit();
     draw_hatches(canvas, camera, body.boundary, frame.positions, frame.held, mark);
     canvas.flush();
@@ -108,7 +105,7 @@ struct MeshPicture::Impl {
     rest.a = 130;
     pass.rest_outline(camera, {rest, std::max(1.0f, 1.2f * unit), 9 * unit});
     pass.outline(camera, {theme::ink, std::max(1.4f, 2.0f * unit), 0});
-    arrows.draw(canvas, camera, frame.positions, frame.arrows, body.arrow_scale, arrow_length(), value_area);
+    arrows.draw(canvas, camera, frame, body.arrow_scale, longest_arrow, value_area);
   }
 
   void draw_heading(const Parts& p, const std::string& right) {
@@ -143,8 +140,9 @@ void MeshPicture::draw(const MeshFrame& frame, Image& out) {
   Impl& m = *impl_;
   m.begin();
   const Impl::Parts p = m.parts();
-  const float reach = m.body.arrow_scale > 0 ? 1.0f : 0.0f;  // of arrows yet unknown, in any direction
-  m.draw_body(fit_camera(m.body.bounds, m.inner(p.body, reach, reach)), frame, p.body);
+  // The arrows of other frames are not known: room for them on every side.
+  const float arrows = m.body.arrow_scale > 0 ? m.arrow_length() : 0.0f;
+  m.draw_body(m.framing(m.line_room() + arrows).fit(p.body), frame, m.arrow_length(), p.body);
   m.draw_heading(p, time_text(frame.time));
   m.canvas.flush();
   m.target.read(out);
@@ -156,29 +154,22 @@ Image MeshPicture::sheet(std::span<const MeshFrame> frames) {
   const Impl::Parts p = m.parts();
   const float text = m.canvas.text_size(TextSize::small);
   const float label = 1.5f * text;  // a panel's time above its shape
-  const double w = m.body.bounds[2] - m.body.bounds[0], h = m.body.bounds[3] - m.body.bounds[1];
-  const Rect whole{0, 0, 1000, 1000};
-  std::array<float, 2> reach{};
-  for (const MeshFrame& frame : frames) {
-    for (const TractionArrow& arrow : frame.arrows) {
-      for (std::size_t k = 0; k < 2; ++k) {
-        const double part = m.body.arrow_scale > 0 ? std::abs(arrow.vector[k]) / m.body.arrow_scale : 1.0;
-        if (std::isfinite(part)) reach[k] = std::max(reach[k], static_cast<float>(std::min(part, 1.0)));
-      }
-    }
-  }
-  const Rect inner = m.inner(whole, reach[0], reach[1]);
-  const Grid grid = choose_grid(static_cast<int>(frames.size()), w, h, p.body, whole.width() - inner.width(),
-                                whole.height() - inner.height() + label);
+  Framing framing = m.framing(m.line_room());
+  for (const MeshFrame& frame : frames)
+    m.arrows.add_to(framing, m.canvas, frame, m.body.arrow_scale, m.sheet_arrow_length());
+  const auto below_label = [label](Rect cell) {
+    cell.y0 = std::min(cell.y0 + label, cell.y1);
+    return cell;
+  };
+  const Grid grid = choose_grid(static_cast<int>(frames.size()), p.body,
+                                [&](const Rect& cell) { return framing.fit(below_label(cell)).scale; });
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    Rect cell = grid_cell(grid, p.body, static_cast<int>(i));
-    cell.y0 += label;
-    const Rect room = m.inner(cell, reach[0], reach[1]);
-    const Camera camera = fit_camera(m.body.bounds, room);
-    m.draw_body(camera, frames[i], {});
+    const Rect room = below_label(grid_cell(grid, p.body, static_cast<int>(i)));
+    const Camera camera = framing.fit(room);
+    m.draw_body(camera, frames[i], m.sheet_arrow_length(), {});
     // The time stands above what the camera shows, not above an empty part of the cell.
-    const Point corner = camera.pixel(m.body.bounds[0], m.body.bounds[3]);
-    const Point at{corner.x, corner.y - (room.y0 - cell.y0) - label + 0.5f * text};
+    const float top = framing.covered(camera, room).y0;
+    const Point at{camera.pixel(m.body.bounds[0], 0).x, top - label + 0.5f * text};
     m.canvas.text(at, Align::left, TextSize::small, theme::ink, time_text(frames[i].time));
   }
   m.draw_heading(p, {});

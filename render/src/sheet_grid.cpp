@@ -4,7 +4,7 @@
 
 namespace render {
 
-Grid choose_grid(int count, double width, double height, const Rect& area, float inset_x, float inset_y) {
+Grid choose_grid(int count, const Rect& area, const std::function<double(const Rect& cell)>& scale) {
   count = std::max(count, 1);
   Grid best;
   double best_scale = -1;
@@ -12,12 +12,11 @@ Grid choose_grid(int count, double width, double height, const Rect& area, float
     const int rows = (count + columns - 1) / columns;
     if (columns > 1 && (count + columns - 2) / (columns - 1) == rows)
       continue;  // the same rows with fewer columns
-    const double w = std::max(static_cast<double>(area.width()) / columns - inset_x, 1e-3);
-    const double h = std::max(static_cast<double>(area.height()) / rows - inset_y, 1e-3);
-    const double scale = std::min(w / width, h / height);
-    if (scale <= best_scale) continue;
-    best_scale = scale;
-    best = {columns, rows};
+    const Grid grid{columns, rows};
+    const double reached = scale(grid_cell(grid, area, 0));
+    if (reached <= best_scale) continue;
+    best_scale = reached;
+    best = grid;
   }
   return best;
 }

@@ -3,7 +3,7 @@
 // Errors   none; count < 1 is taken as 1
 #pragma once
 
-#include <array>
+#include <functional>
 
 #include "canvas.hpp"
 
@@ -13,9 +13,8 @@ struct Grid {
   int columns = 1, rows = 1;
 };
 
-// Panels of bounds with the given width and height [m] in `area`; each loses `inset_x` and `inset_y` pixels
-// to its label and to the space between.
-Grid choose_grid(int count, double width, double height, const Rect& area, float inset_x, float inset_y);
+// `scale`: of what a panel shows when it has this cell. Cells of the last row may stay empty.
+Grid choose_grid(int count, const Rect& area, const std::function<double(const Rect& cell)>& scale);
 
 Rect grid_cell(const Grid& grid, const Rect& area, int index);
 

@@ -6,11 +6,14 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <stdexcept>
 #include <string>
 #include <thread>
 
 #include "bodies.hpp"
 #include "canvas.hpp"
+#include "context_backends.hpp"
 #include "gl_program.hpp"
 #include "render/mesh_picture.hpp"
 #include "support.hpp"
@@ -78,6 +81,41 @@ TEST_P(EachBackend, MayBeOpenedAgainAfterItWasClosed) {
 
 INSTANTIATE_TEST_SUITE_P(Context, EachBackend, ::testing::Values(Backend::osmesa, Backend::egl),
                          [](const auto& each) { return each.param == Backend::egl ? "Egl" : "Osmesa"; });
+
+// A context that does nothing.
+class NoContext final : public render::Context {
+ public:
+  const render::Gl& gl() const override { throw std::logic_error("no functions here"); }
+  int width() const override { return 1; }
+  int height() const override { return 1; }
+  std::string description() const override { return "none"; }
+  void make_current() override {}
+};
+
+std::string reason_of(const render::Opener& first, const render::Opener& second) {
+  try {
+    render::open_either(first, second);
+  } catch (const std::runtime_error& e) {
+    return e.what();
+  }
+  return "opened";
+}
+
+TEST(Contexts, TheSecondBackendServesWhereTheFirstGivesNoContext) {
+  const auto works = [] { return std::make_unique<NoContext>(); };
+  const auto fails = [](const char* why) {
+    return [why]() -> std::unique_ptr<render::Context> { throw std::runtime_error(why); };
+  };
+  const auto too_large = []() -> std::unique_ptr<render::Context> {
+    throw render::PictureTooLarge("beyond the limit");
+  };
+  EXPECT_EQ(reason_of(works, fails("not asked")), "opened");
+  EXPECT_EQ(reason_of(fails("the first gives no context"), works), "opened");
+  EXPECT_EQ(reason_of(too_large, works), "opened");
+  EXPECT_EQ(reason_of(fails("the first is absent"), fails("the second gives no context")),
+            "no OpenGL for drawing without a window: the first is absent; the second gives no context");
+  EXPECT_EQ(reason_of(too_large, fails("the second is absent")), "beyond the limit");
+}
 
 TEST(Contexts, OsmesaAndEglGiveTheSamePicture) {
   RHEO_OPEN_OR_SKIP(osmesa, Backend::osmesa, 480, 270);

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "bodies.hpp"
 #include "colormap.hpp"
@@ -177,6 +179,34 @@ TEST_F(MeshPictures, ASingleHeldNodeIsADotAndNoHatch) {
   EXPECT_LT(dots.count, 100);
 }
 
+// The left edge in a few parts and in parts shorter than the distance of the strokes.
+TEST_F(MeshPictures, HatchesDoNotDependOnTheDivisionOfTheHeldEdge) {
+  std::vector<int> inked;
+  for (const int parts : {1, 2, 100}) {
+    Body body = bodies::rectangle(2, 1, 2, parts + 1);
+    const Image without = draw(body.layout(), body.frame());
+    for (int j = 0; j <= parts; ++j) body.held.push_back(2 * j);
+    const Image with = draw(body.layout(), body.frame());
+    const int edge = drawn(without).x0;
+    inked.push_back(support::find(with, [&](int x, int y, const Pixel&) {
+                      return x < edge - 1 && support::distance(at(with, x, y), at(without, x, y)) > 40;
+                    }).count);
+  }
+  EXPECT_GT(inked[0], 100);
+  // The same strokes, but for the rounding of the way walked.
+  EXPECT_NEAR(inked[1], inked[0], 0.03 * inked[0]);
+  EXPECT_NEAR(inked[2], inked[0], 0.03 * inked[0]);
+}
+
+TEST_F(MeshPictures, AShortHeldEdgeHasAHatch) {
+  Body body = bodies::rectangle(2, 1, 2, 101);
+  const Image without = draw(body.layout(), body.frame());
+  body.held = {100, 102};  // one edge of about three pixels in the middle of the left side
+  const Box hatch = support::find_difference(without, draw(body.layout(), body.frame()), 40);
+  EXPECT_GT(hatch.count, 5);
+  EXPECT_LT(hatch.count, 40) << "one stroke";
+}
+
 // On the right side of a 2 x 1 rectangle; the value stands beside the middle one.
 std::vector<render::TractionArrow> three_arrows(double traction) {
   return {{{2.0, 0.15}, {traction, 0}}, {{2.0, 0.5}, {traction, 0}}, {{2.0, 0.85}, {traction, 0}}};
@@ -234,6 +264,71 @@ TEST_F(MeshPictures, APullingArrowStaysOneWhenTheBodyTurnsInsideOut) {
     body.positions[i] = 1 - body.positions[i];  // mirrored
   const Box mirrored = support::find_difference(without, draw(layout, body.frame()));
   EXPECT_EQ(upright.x1, mirrored.x1);
+}
+
+// The triangle's first edge goes through the origin's right in the direction `along`, its body lies on the
+// left.
+Body slanted_triangle(double along) {
+  Body body;
+  const double c = std::cos(along), s = std::sin(along);
+  body.rest = {0, 0, c, s, 0.5 * c - 0.7 * s, 0.5 * s + 0.7 * c};
+  body.triangles = {0, 1, 2};
+  body.boundary = {0, 1, 1, 2, 2, 0};
+  body.positions = body.rest;
+  body.scalar.assign(3, 0.0);
+  return body;
+}
+
+TEST_F(MeshPictures, ArrowsTouchTheMiddleOfASlantedEdge) {
+  for (int slant = 0; slant < 360; slant += 40) {
+    Body body = slanted_triangle(slant * std::numbers::pi / 180);
+    render::MeshLayout layout = body.layout();
+    layout.arrow_scale = 1;
+    const Box box = drawn(draw(layout, body.frame()));
+    const double middle_x = (body.rest[0] + body.rest[2]) / 2, middle_y = (body.rest[1] + body.rest[3]) / 2;
+    // The outline adds a pixel to either side.
+    const double scale = (box.width() - 2) / (layout.bounds[2] - layout.bounds[0]);
+    const double x = box.x0 + 1 + (middle_x - layout.bounds[0]) * scale;
+    const double y = box.y0 + 1 + (layout.bounds[3] - middle_y) * scale;
+    for (int turn = 0; turn < 360; turn += 40) {
+      const double angle = turn * std::numbers::pi / 180;
+      body.arrows = {{{middle_x, middle_y}, {std::cos(angle), std::sin(angle)}}};
+      const Image image = draw(layout, body.frame());
+      double nearest = 1e9;
+      support::find(image, [&](int px, int py, const Pixel& p) {
+        if (is_red(p)) nearest = std::min(nearest, std::hypot(px + 0.5 - x, py + 0.5 - y));
+        return false;
+      });
+      // A gap of 1.6 pixels, one of soft rims, and two of the box's rounding.
+      EXPECT_LT(nearest, 5) << slant << " " << turn;
+    }
+  }
+}
+
+// A traction keeps its direction while the body turns: what pressed at rest pulls now.
+TEST_F(MeshPictures, ArrowsStayOutsideOfABodyThatTurned) {
+  for (const double pull : {1.0, -1.0}) {
+    Body body = slanted_triangle(0);
+    render::MeshLayout layout = body.layout();
+    layout.bounds = {-1, -1, 1, 1};
+    layout.arrow_scale = 1;
+    for (int turn = 0; turn < 360; turn += 45) {
+      body.positions = slanted_triangle(turn * std::numbers::pi / 180).rest;
+      body.arrows.clear();
+      const Image without = draw(layout, body.frame());
+      const double nx = std::sin(turn * std::numbers::pi / 180),
+                   ny = -std::cos(turn * std::numbers::pi / 180);
+      body.arrows = {
+          {{(body.positions[0] + body.positions[2]) / 2, (body.positions[1] + body.positions[3]) / 2},
+           {pull * nx, pull * ny}}};
+      const Image with = draw(layout, body.frame());
+      const Box inside = support::find(with, [&](int x, int y, const Pixel& p) {
+        const Pixel before = at(without, x, y);
+        return is_red(p) && before[2] > before[0] + 20;  // the plain fill
+      });
+      EXPECT_LT(inside.count, 4) << turn << " " << pull;
+    }
+  }
 }
 
 TEST_F(MeshPictures, ArrowLengthIsProportionalToTheTraction) {
@@ -295,6 +390,39 @@ TEST_F(MeshPictures, RestShapeIsAFaintDashedOutline) {
   EXPECT_GT(dark, 20);
   EXPECT_GT(light, 20);
   EXPECT_EQ(at(image, (rest.x0 + rest.x1) / 2, row), support::paper) << "not filled";
+}
+
+TEST_F(MeshPictures, DashesRunOnOverTheEdgesOfAFineBoundary) {
+  // The rest shape's left side and top, the deformed shape being far away: lengths of dashes and gaps.
+  const auto runs = [&](int nx, int ny) {
+    Body body = bodies::rectangle(1, 1, nx, ny);
+    for (std::size_t i = 0; i < body.positions.size(); i += 2) body.positions[i] += 2.0;
+    const Image image = draw(body.layout(), body.frame());
+    const Box rest = support::find(
+        image, [](int x, int y, const Pixel& p) { return y > heading && x < width / 2 - 60 && p[0] < 200; });
+    std::vector<int> lengths;
+    bool dashed = false;
+    int share = 0;
+    for (int x = rest.x0 + 3; x < rest.x1 - 3; ++x) {
+      int darkest = 255;
+      for (int y = rest.y0 - 1; y < rest.y0 + 3; ++y) darkest = std::min(darkest, at(image, x, y)[0]);
+      const bool dash = darkest < 200;
+      if (lengths.empty() || dash != dashed) lengths.push_back(0);
+      ++lengths.back();
+      dashed = dash;
+      share += dash;
+    }
+    EXPECT_GT(lengths.size(), 20u);
+    // Whole runs only.
+    const auto [least, most] = std::minmax_element(lengths.begin() + 1, lengths.end() - 1);
+    EXPECT_GE(*least, 1);
+    EXPECT_LE(*most, 6) << "of a period of 6 pixels";
+    return share / static_cast<double>(rest.width() - 6);
+  };
+  const double whole = runs(2, 2);
+  EXPECT_GT(whole, 0.3);
+  EXPECT_LT(whole, 0.8);
+  for (const int n : {7, 40, 150}) EXPECT_NEAR(runs(n, n), whole, 0.04) << n;
 }
 
 TEST_F(MeshPictures, InvertedTrianglesAreDrawnToo) {
@@ -376,7 +504,7 @@ TEST_F(MeshPictures, BoundaryOfManyEdgesIsDrawnWhole) {
       int darkest = 255;
       for (int k = 0; k < 30; ++k)
         darkest = std::min(darkest, at(image, x, top ? box.y0 + k : box.y1 - k)[0]);
-      EXPECT_LT(darkest, 90) << x;
+      EXPECT_LT(darkest, 120) << x;  // 1.4 pixels of ink may lie between two rows
     }
   }
 }
@@ -465,6 +593,36 @@ TEST_F(MeshPictures, SheetShowsEveryShapeAtOneScale) {
     // The outline adds about three pixels to either side.
     EXPECT_NEAR(parts[k].width() - 3, (parts[0].width() - 3) * (1 + 0.1 * static_cast<double>(k)), 3);
   }
+}
+
+TEST_F(MeshPictures, SheetLeavesRoomForArrowsOnlyWhereTheyAre) {
+  Body body = bodies::rectangle(4, 1, 5, 2);
+  render::MeshLayout layout = body.layout();
+  layout.arrow_scale = 10;
+  render::MeshPicture picture(*context_, layout);
+  const auto shape_width = [&](const std::vector<render::TractionArrow>& arrows) {
+    body.arrows = arrows;
+    const std::vector<render::MeshFrame> frames{body.frame()};
+    const Image image = picture.sheet(frames);
+    EXPECT_EQ(support::find(image,
+                            [](int x, int y, const Pixel& p) {
+                              return is_red(p) && (x < 8 || x >= width - 8 || y >= height - 8);
+                            })
+                  .count,
+              0);
+    return support::find(image,
+                         [](int, int y, const Pixel& p) {
+                           return y > heading + 20 && p[0] < p[2] + 20 &&
+                                  support::distance(p, support::paper) > 60;
+                         })
+        .width();
+  };
+  const int bare = shape_width({});
+  EXPECT_GT(bare, 0.92 * width);
+  EXPECT_EQ(shape_width({{{2, 1}, {0, -10}}}), bare) << "above, where there is room";
+  const int right = shape_width({{{4, 0.5}, {10, 0}}});
+  EXPECT_LT(right, bare - 15);
+  EXPECT_GT(right, bare - 45) << "on one side only";
 }
 
 TEST_F(MeshPictures, SheetOfNothingAndOfManyFrames) {

@@ -6,7 +6,6 @@
 #include <limits>
 #include <set>
 
-#include "sheet_grid.hpp"
 #include "typeset.hpp"
 
 namespace {
@@ -88,18 +87,6 @@ TEST(Typeset, LeavesOtherTextAlone) {
     for (const auto& run : render::typeset(text)) whole += run.text;
     EXPECT_EQ(whole, text);
   }
-}
-
-TEST(Grid, UsesThePictureWell) {
-  const render::Rect wide{0, 0, 1600, 900};
-  const auto shape = [&](int count, double w, double h) {
-    const auto g = render::choose_grid(count, w, h, wide, 0, 0);
-    return std::pair{g.columns, g.rows};
-  };
-  EXPECT_EQ(shape(1, 1, 1), (std::pair{1, 1}));
-  EXPECT_EQ(shape(6, 1, 1), (std::pair{3, 2}));
-  EXPECT_EQ(shape(6, 10, 1), (std::pair{1, 6}));
-  EXPECT_EQ(shape(6, 1, 10), (std::pair{6, 1}));
 }
 
 }  // namespace

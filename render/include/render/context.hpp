@@ -13,7 +13,7 @@ namespace render {
 struct Gl;  // the table of functions, render/src/gl.hpp
 
 enum class Backend {
-  automatic,  // OSMesa where it is installed, else EGL
+  automatic,  // OSMesa where it gives a context, else EGL
   osmesa,
   egl  // surfaceless: no display
 };
