@@ -135,7 +135,9 @@ struct Simulation::Impl {
                   "kernel edge needs mass = \"lumped\" and constraints = \"auto\" without [[constraint]]: "
                   "use auto or csr");
     }
-    if (edges && options.kernel != Kernel::csr) {
+    const double rounding = 30.0 * std::numeric_limits<double>::epsilon() / EdgeBody::smallest_share(model);
+    const bool accurate = !exponential() || rounding <= scene.time.tolerance;
+    if (edges && (options.kernel == Kernel::edge || (options.kernel == Kernel::automatic && accurate))) {
       return std::make_unique<EdgeBody>(scene.mesh, model, best_simd_level());
     }
     return std::make_unique<AssembledBody>(model, scene.time.baumgarte);

@@ -233,6 +233,18 @@ TEST(Exponential, StaysExactlyAtRestWithoutLoads) {
   for (double x : simulation.u()) EXPECT_EQ(x, 0.0);
 }
 
+TEST(Exponential, TakesTheKernelThatCanReachItsTolerance) {
+  // One residual force a millionth of the other: rounding of their sums reaches the smaller one's tenth
+  // digit.
+  const Scene uneven = with_material(off_grid_beam(Mass::lumped), 4, 0.004, 6, 5e-7);
+  EXPECT_EQ(Simulation(exponential(uneven, 1e-12)).kernel(), "csr");
+  EXPECT_EQ(Simulation(exponential(uneven, 1e-6)).kernel(), "edge");
+  EXPECT_EQ(Simulation(exponential(off_grid_beam(Mass::lumped), 1e-13)).kernel(), "edge");
+  Scene fast = exponential(uneven, 1e-9);
+  const std::vector<double> times{0.2, 0.5, 1.0};
+  EXPECT_LE(run_error(ExactSolution(fast).at(times), simulate(fast, times)), 1e-8);
+}
+
 TEST(Exponential, RefusesWhatNeedsBaumgarte) {
   for (const Scene& scene : {tied(Mass::lumped), baumgarte(off_grid_beam(Mass::lumped))}) {
     try {

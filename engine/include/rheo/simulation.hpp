@@ -60,7 +60,7 @@ struct Counters {
 
 // Ways to the same rheological force.
 enum class Kernel {
-  automatic,  // edge where the scene allows it, else csr
+  automatic,  // edge where the scene (and exponential's tolerance) allows it, else csr
   csr,        // assembled matrices: every scene; the reference
   edge        // by edges, vectorised: lumped mass, fixed and moved nodes eliminated
 };
