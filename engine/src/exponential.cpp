@@ -138,7 +138,8 @@ Exponential::Outcome Exponential::judge(std::span<const StatePart> parts, std::s
   include(parts, factor, b_, rest_);
   std::copy(scale_.begin(), scale_.end(), sum_scale_.begin());
   include(parts, 1.0, sum_, sum_scale_);
-  // Terms that outgrow the sum take its digits with them by rounding, whatever is left out.
+  // Terms that outgrow the sum take its digits with them by rounding, whatever is left out. (Not by share: a
+  // part that mixes sizes rounds as its largest, with any terms.)
   const double lost_to_rounding = rounding / (0.1 * std::max(settings_.tolerance, 1e-12));
   Outcome outcome = Outcome::done;
   for (std::size_t p = 0; p < parts.size(); ++p) {
@@ -148,7 +149,7 @@ Exponential::Outcome Exponential::judge(std::span<const StatePart> parts, std::s
   }
   if (outcome == Outcome::more) return outcome;
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (!(lost_to_rounding * peak_[p] <= parts[p].share * sum_scale_[p])) return Outcome::lost;
+    if (!(lost_to_rounding * peak_[p] <= sum_scale_[p])) return Outcome::lost;
   }
   std::swap(scale_, sum_scale_);
   return Outcome::done;

@@ -45,18 +45,22 @@ EdgeBody::EdgeBody(const Model& model, const EdgeForce& force)
   const Material& m = model.material;
   const double l = m.lambda_rate();
   const double r = m.mu_rate();
-  // p mixes w_lambda and w_mu: driven alike by v, their sizes are as ela / (rate + fastest rate of v) at
-  // least.
-  const auto reach = [&](double ela, double rate) { return ela / (rate + model.element_omega); };
-  const double least = std::min(reach(m.lambda_ela, l), reach(m.mu_ela, r));
-  const double most = std::max(reach(m.lambda_ela, l), reach(m.mu_ela, r));
-  parts_ = {StatePart{4 * n, least > 0.0 ? least / most : 1.0}, StatePart{2 * n, 1.0}, StatePart{2 * n, 1.0}};
+  parts_ = {StatePart{4 * n, smallest_share(model)}, StatePart{2 * n, 1.0}, StatePart{2 * n, 1.0}};
   for (int axis = 0; axis < 2; ++axis) {
     material_.growth[axis] = m.lambda_ela;
     material_.growth[2 + axis] = m.mu_ela;
     material_.decay[axis] = m.lambda_rate();
     material_.decay[2 + axis] = m.mu_rate();
   }
+}
+
+double EdgeBody::smallest_share(const Model& model) {
+  const Material& m = model.material;
+  if (m.lambda_ela == 0.0 || m.mu_ela == 0.0) return 1.0;
+  const auto reach = [&](double ela, double rate) { return ela / (rate + model.element_omega); };
+  const double lambda = reach(m.lambda_ela, m.lambda_rate());
+  const double mu = reach(m.mu_ela, m.mu_rate());
+  return std::min(lambda, mu) / std::max(lambda, mu);
 }
 
 void EdgeBody::load(std::span<const double> y) {

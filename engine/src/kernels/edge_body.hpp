@@ -16,6 +16,10 @@ class EdgeBody final : public Body {
   // `force` must outlive this.
   EdgeBody(const Model& model, const EdgeForce& force);
 
+  // The state's p mixes w_lambda and w_mu: the smaller's size over the larger's, both driven by the same v at
+  // the largest frequency. The smaller's rounding errors are larger by as much.
+  static double smallest_share(const Model& model);
+
   std::string_view kernel() const override { return "edge"; }
   void load(std::span<const double> y) override;
   void store(std::span<double> y) const override;
