@@ -40,9 +40,10 @@ install_missing() {
 }
 
 apt_install() {
+  log=$(mktemp) || return 1
   $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends \
-    -o Dpkg::Use-Pty=0 "$@" >"${TMPDIR:-/tmp}/rheo-apt.$$" 2>&1 && status=0 || status=$?
-  [ "$status" = 0 ] || cat "${TMPDIR:-/tmp}/rheo-apt.$$" >&2
-  rm -f "${TMPDIR:-/tmp}/rheo-apt.$$"
+    -o Dpkg::Use-Pty=0 "$@" >"$log" 2>&1 && status=0 || status=$?
+  [ "$status" = 0 ] || cat "$log" >&2
+  rm -f "$log"
   return "$status"
 }

@@ -6,13 +6,17 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "failure.hpp"
+#include "memory_need.hpp"
 #include "option_values.hpp"
 #include "overrides.hpp"
 #include "rheo/deformation.hpp"
 #include "rheo/simulation.hpp"
+#include "run_notes.hpp"
 
 namespace app {
 namespace {
@@ -115,7 +119,14 @@ std::string stable_text(double step) {
   return fmt::format("{:.6g} s", step);
 }
 
-void print_steps(const rheo::Simulation& simulation) {
+// What a run would say to the step and the integrator.
+enum class Verdict {
+  accepted,
+  too_long,  // beyond the stable limit, and not allowed
+  no_step    // automatic, and no step is stable
+};
+
+void print_steps(const rheo::Simulation& simulation, rheo::IntegratorKind integrator, Verdict verdict) {
   const rheo::Spectrum& spectrum = simulation.spectrum();
   const rheo::TimeSettings& time = simulation.scene().time;
   row("omega_max", "{:.6g} rad/s ({} Lanczos steps); by single elements {:.6g} rad/s", spectrum.omega_max,
@@ -123,15 +134,20 @@ void print_steps(const rheo::Simulation& simulation) {
   for (const auto kind : {rheo::IntegratorKind::rk4, rheo::IntegratorKind::euler})
     row(fmt::format("stable {}", name_of(kind)).c_str(), "{}",
         stable_text(rheo::stable_step(spectrum, kind)));
-  row("integrator", "{}", name_of(time.integrator));
+  row("integrator", "{}", name_of(integrator));
   row("kernel", "{}", simulation.kernel());
-  if (time.integrator == rheo::IntegratorKind::exponential) row("tolerance", "{:g}", time.tolerance);
-  if (std::isinf(simulation.step_bound()))
+  if (integrator == rheo::IntegratorKind::exponential) row("tolerance", "{:g}", time.tolerance);
+  if (verdict == Verdict::no_step) {
+    row("step", "none: no step of euler is stable here, some vibrations are not damped");
+  } else if (std::isinf(simulation.step_bound())) {
     row("step", "auto: one an interval between events and outputs");
-  else
-    row("step", "{:.6g} s at most ({})", simulation.step_bound(),
-        time.step > 0.0 ? "as asked" : "auto: a quarter of the stable step");
-  row("steps", "{} in {:g} s", simulation.planned_steps(), time.duration);
+    row("steps", "{} in {:g} s", simulation.planned_steps(), time.duration);
+  } else {
+    row("step", "{:.6g} s at most ({}{})", simulation.step_bound(),
+        time.step > 0.0 ? "as asked" : "auto: a quarter of the stable step",
+        verdict == Verdict::too_long ? ", beyond the stable step" : "");
+    row("steps", "{} in {:g} s", simulation.planned_steps(), time.duration);
+  }
   row("outputs", "{} at {:g} per second", rheo::output_count(time), time.frame_rate);
 }
 
@@ -139,6 +155,7 @@ struct Cost {
   std::int64_t steps = 0;
   double seconds_per_step = 0.0;
   double seconds_per_output = 0.0;
+  std::optional<rheo::Divergence> divergence;  // what was timed is no run then
 };
 
 // Some real steps from the start, until there are enough of them and of seconds to be worth a quotient.
@@ -156,13 +173,15 @@ Cost measure(rheo::Simulation& simulation) {
                           : simulation.step_bound();
   // The first step pays for cold memory; it is not counted.
   Cost cost;
-  if (simulation.advance(std::min(step, duration))) return cost;
+  cost.divergence = simulation.advance(std::min(step, duration));
+  if (cost.divergence) return cost;
   const std::int64_t before = simulation.counters().steps;
   const Clock::time_point start = Clock::now();
   while (simulation.time() < duration) {
     // Exponential steps are as long as they may be: as in a run, from output to output at most.
     const double t = simulation.time() + (exponential ? step : static_cast<double>(chunk) * step);
-    if (simulation.advance(std::min(t, duration))) break;
+    cost.divergence = simulation.advance(std::min(t, duration));
+    if (cost.divergence) return cost;
     cost.steps = simulation.counters().steps - before;
     const double passed = since(start);
     if ((cost.steps >= few && passed > enough_seconds) || passed > 10.0 * enough_seconds) break;
@@ -176,13 +195,17 @@ Cost measure(rheo::Simulation& simulation) {
   return cost;
 }
 
-void print_cost(rheo::Simulation& simulation) {
+void print_cost(rheo::Simulation& simulation, Verdict verdict) {
   const rheo::Scene& scene = simulation.scene();
-  const Cost cost = measure(simulation);
+  const Cost cost = verdict == Verdict::accepted ? measure(simulation) : Cost{};
   const double outputs = static_cast<double>(rheo::output_count(scene.time));
   const double seconds = cost.seconds_per_step * static_cast<double>(simulation.planned_steps()) +
                          cost.seconds_per_output * outputs;
-  if (cost.steps == 0)
+  if (verdict != Verdict::accepted)
+    row("cost", "no forecast: the run would be refused");
+  else if (cost.divergence)
+    row("cost", "no forecast: the run diverges, noticed at t = {:.4g} s", cost.divergence->t);
+  else if (cost.steps == 0)
     row("cost", "no forecast: the run is a single step");
   else
     row("cost", "forecast {:.3g} s for run, from {} timed steps of {:.3g} s each", seconds, cost.steps,
@@ -197,14 +220,31 @@ void print_cost(rheo::Simulation& simulation) {
 }  // namespace
 
 void check_scene(const Options& options) {
-  rheo::Simulation simulation(load_scene(options), options.simulation);
-  const rheo::Scene& scene = simulation.scene();
+  const rheo::Scene scene = load_scene(options);
+  require_memory(scene, options);
+  const rheo::TimeSettings& time = scene.time;
+  // The report comes before a refusal: built with any step, and where Euler has none, as RK4.
+  rheo::SimulationOptions any_step = options.simulation;
+  any_step.allow_unstable = true;
+  rheo::Scene shown = scene;
+  if (time.step == 0.0) shown.time.integrator = rheo::IntegratorKind::rk4;
+  std::optional<rheo::Simulation> simulation(std::in_place, std::move(shown), any_step);
+  const double limit = rheo::stable_step(simulation->spectrum(), time.integrator);
+  Verdict verdict = Verdict::accepted;
+  if (time.step == 0.0 && limit == 0.0) verdict = Verdict::no_step;
+  // Rounding as the engine allows it.
+  if (time.step > limit * (1.0 + 1e-12) && !options.simulation.allow_unstable) verdict = Verdict::too_long;
+  if (verdict == Verdict::accepted && simulation->scene().time.integrator != time.integrator)
+    simulation.emplace(scene, any_step);
   fmt::print("{}: {}\n", options.scene.string(), scene.title);
-  for (const std::string& note : scene.notes) fmt::print("  note: {}\n", note);
+  for (const std::string& note : run_notes(scene)) fmt::print("  note: {}\n", note);
   print_mesh(scene);
   print_loads(scene);
-  print_steps(simulation);
-  print_cost(simulation);
+  print_steps(*simulation, time.integrator, verdict);
+  print_cost(*simulation, verdict);
+  // A run's own words for the refusal.
+  simulation.reset();
+  if (verdict != Verdict::accepted) simulation.emplace(scene, options.simulation);
 }
 
 }  // namespace app

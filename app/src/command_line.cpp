@@ -205,6 +205,26 @@ void check_first_word(const std::vector<std::string>& words) {
   throw Failure(ExitCode::usage, fmt::format("{} (see {})", text, help));
 }
 
+// CLI11 takes an option's name for the value of the option before it, or blames a later word.
+void check_values(const std::vector<std::string>& words, const CLI::App& command) {
+  const std::string help = fmt::format("see rheo {} --help", command.get_name());
+  for (std::size_t i = 2; i < words.size() && words[i] != "--"; ++i) {
+    const std::string name = words[i].substr(0, words[i].find('='));
+    if (!name.starts_with('-')) continue;
+    const CLI::Option* option = command.get_option_no_throw(name);
+    if (option == nullptr) continue;
+    const bool is_flag = option->get_items_expected_max() == 0;
+    if (is_flag && name != words[i])
+      throw Failure(ExitCode::usage, fmt::format("{} takes no value ({})", name, help));
+    if (is_flag || name != words[i] || i + 1 == words.size()) continue;
+    const std::string next = words[i + 1].substr(0, words[i + 1].find('='));
+    if (next.starts_with('-') && command.get_option_no_throw(next) != nullptr)
+      throw Failure(ExitCode::usage, fmt::format("{}: its value is missing: '{}' is an option ({})", name,
+                                                 words[i + 1], help));
+    ++i;
+  }
+}
+
 Options read_values(const Texts& texts, const CLI::App& command) {
   Options options;
   const std::string& name = command.get_name();
@@ -260,8 +280,8 @@ std::optional<Options> read_command_line(int argc, char** argv) {
   CLI::App* run = add_command(program, texts, "run", "simulate; writes state.csv, history.csv and run.json");
   CLI::App* render = add_command(program, texts, "render",
                                  "simulate and draw: run's files, frames, sheet.png and residual.png");
-  add_command(program, texts, "check",
-              "read the scene; print sizes, stable steps and a cost forecast; no run");
+  CLI::App* check = add_command(program, texts, "check",
+                                "read the scene; print sizes, stable steps and a cost forecast; no run");
   add_output_options(*run, texts);
   add_output_options(*render, texts);
   add_picture_options(*render, texts);
@@ -270,6 +290,8 @@ std::optional<Options> read_command_line(int argc, char** argv) {
     const auto commands = program.get_subcommands();
     return commands.empty() ? nullptr : commands.front();
   };
+  for (const CLI::App* command : {run, render, check})
+    if (command->get_name() == words[1]) check_values(words, *command);
   try {
     program.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {

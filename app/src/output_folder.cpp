@@ -9,6 +9,10 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -53,25 +57,15 @@ bool is_vtu(std::string_view name) {
   throw Failure(ExitCode::file, fmt::format("{}: {}: {}", path.string(), what, error.message()));
 }
 
-template <typename Known>
-void remove_known(const fs::path& folder, Known known) {
-  std::error_code error;
-  std::vector<fs::path> files;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (known(entry->path().filename().string()) && !fs::is_directory(entry->symlink_status()))
-      files.push_back(entry->path());
-  if (error) refuse(folder, "cannot read the folder", error);
-  for (const fs::path& file : files)
-    if (fs::remove(file, error); error) refuse(file, "cannot remove the earlier file", error);
+bool is_part(std::string_view name) {
+  return name.ends_with(".part");
 }
 
-// A subfolder of an earlier run: its numbered files, then itself when nothing else is in it.
-template <typename Known>
-void clear_subfolder(const fs::path& folder, Known known) {
-  if (!fs::is_directory(fs::symlink_status(folder))) return;
-  remove_known(folder, known);
-  std::error_code not_empty;
-  fs::remove(folder, not_empty);
+// "sheet.png", "frames/frame_00042.png", "vtu/state.pvd" and their unfinished ".part".
+bool is_own(std::string_view name) {
+  if (name.starts_with("frames/")) return is_frame(name.substr(7));
+  if (name.starts_with("vtu/")) return is_vtu(name.substr(4));
+  return is_top_file(name);
 }
 
 void check_writable(const fs::path& folder) {
@@ -88,6 +82,54 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
+// What run.json of an earlier run lists; nullopt where there is none or it is something else's.
+std::optional<std::vector<std::string>> earlier_files(const fs::path& folder) {
+  using Json = nlohmann::json;
+  std::ifstream file(folder / "run.json", std::ios::binary);
+  if (!file) return std::nullopt;
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object() || !json.contains("rheo") || !json.contains("files") || !json["files"].is_array())
+    return std::nullopt;
+  std::vector<std::string> names;
+  for (const Json& name : json["files"])
+    // A name that rheo does not write, such as "../thesis.tex", is nobody's order to remove it.
+    if (name.is_string() && is_own(name.get<std::string>())) names.push_back(name);
+  return names;
+}
+
+// Unfinished files, which carry names that only rheo gives.
+std::vector<std::string> leftovers_in(const fs::path& folder) {
+  std::vector<std::string> found;
+  for (const char* const subfolder : {"", "frames/", "vtu/"}) {
+    const fs::path place = folder / subfolder;
+    // A link to elsewhere is not followed.
+    if (*subfolder != '\0' && fs::is_symlink(folder / fs::path(subfolder).parent_path())) continue;
+    if (!fs::is_directory(place)) continue;
+    for (const std::string& each : names_in(place))
+      if (const std::string name = subfolder + each; is_part(name) && is_own(name)) found.push_back(name);
+  }
+  return found;
+}
+
+// Nothing but unfinished files and subfolders for results that hold nothing else.
+bool is_interrupted_run(const fs::path& folder, const std::vector<std::string>& names) {
+  return std::ranges::all_of(names, [&](const std::string& name) {
+    if (name != "frames" && name != "vtu") return is_part(name) && is_own(name);
+    return fs::is_directory(fs::symlink_status(folder / name)) &&
+           std::ranges::all_of(names_in(folder / name), [&](const std::string& inner) {
+             return is_part(inner) && is_own(name + "/" + inner);
+           });
+  });
+}
+
+[[noreturn]] void refuse_folder(const fs::path& path) {
+  throw Failure(ExitCode::file,
+                fmt::format("{}: is a folder where a file is to be written: move it away, or name another "
+                            "folder with -o",
+                            path.string()));
+}
+
 }  // namespace
 
 OutputFolder::OutputFolder(fs::path folder, Replace replace) : folder_(std::move(folder)) {
@@ -102,26 +144,50 @@ OutputFolder::OutputFolder(fs::path folder, Replace replace) : folder_(std::move
   }
   const std::vector<std::string> names = names_in(folder_);
   if (!names.empty() && replace == Replace::nothing) {
-    const bool earlier_run = std::ranges::find(names, "run.json") != names.end();
     const std::string remedy =
         "name another folder with -o, or add --force, which replaces results and keeps other files";
+    if (std::ranges::find(names, "run.json") != names.end())
+      throw Failure(ExitCode::usage,
+                    fmt::format("{}: holds the results of an earlier run: {}", folder_.string(), remedy));
+    if (is_interrupted_run(folder_, names))
+      throw Failure(ExitCode::usage, fmt::format("{}: holds what an interrupted run left ('{}'): {}",
+                                                 folder_.string(), names.front(), remedy));
     throw Failure(ExitCode::usage,
-                  earlier_run
-                      ? fmt::format("{}: holds the results of an earlier run: {}", folder_.string(), remedy)
-                      : fmt::format("{}: is not empty ('{}'): {}", folder_.string(), names.front(), remedy));
+                  fmt::format("{}: is not empty ('{}'): {}", folder_.string(), names.front(), remedy));
   }
   check_writable(folder_);
   if (names.empty()) return;
-  remove_known(folder_, is_top_file);
-  clear_subfolder(folder_ / "frames", is_frame);
-  clear_subfolder(folder_ / "vtu", is_vtu);
   // A folder in the place of a result would only show after the simulation.
   for (const std::string_view name : top_names)
-    if (fs::is_directory(folder_ / name))
-      throw Failure(ExitCode::file,
-                    fmt::format("{}: is a folder where a file is to be written: move it away, or name "
-                                "another folder with -o",
-                                (folder_ / name).string()));
+    for (const char* const end : {"", ".part"})
+      if (const fs::path path = folder_ / (std::string(name) + end); fs::is_directory(path))
+        refuse_folder(path);
+  std::vector<std::string> listed = earlier_files(folder_).value_or(std::vector<std::string>{});
+  // The list goes last: what is left of an interrupted removal is still known.
+  std::ranges::stable_partition(listed, [](const std::string& name) { return name != "run.json"; });
+  stale_ = leftovers_in(folder_);
+  stale_.insert(stale_.end(), listed.begin(), listed.end());
+}
+
+void OutputFolder::expect_series(const std::string& first) {
+  const fs::path place = file(first).parent_path();
+  for (const std::string& name : names_in(place))
+    if ((is_frame(name) || is_vtu(name)) && fs::is_directory(place / name)) refuse_folder(place / name);
+}
+
+void OutputFolder::clear() {
+  std::error_code error;
+  for (const std::string& name : stale_) {
+    const fs::path path = folder_ / name;
+    // Neither a folder of that name nor what lies behind a link is the earlier run's.
+    if (fs::is_symlink(path.parent_path()) && path.parent_path() != folder_) continue;
+    if (fs::is_directory(fs::symlink_status(path, error))) continue;
+    if (fs::remove(path, error); error) refuse(path, "cannot remove the earlier file", error);
+  }
+  stale_.clear();
+  for (const char* const subfolder : {"frames", "vtu"})
+    if (fs::is_directory(fs::symlink_status(folder_ / subfolder, error)))
+      fs::remove(folder_ / subfolder, error);  // one that holds anything stays
 }
 
 OutputFolder::~OutputFolder() {
@@ -149,6 +215,12 @@ void OutputFolder::make(const fs::path& folder) {
     missing.push_back(each);
     if (!each.has_relative_path()) break;
   }
+  for (const fs::path& each : missing)
+    if (fs::is_symlink(fs::symlink_status(each, error)))
+      throw Failure(ExitCode::file,
+                    fmt::format("{}: is a link to {}, which does not exist: make that folder, or name "
+                                "another one with -o",
+                                each.string(), fs::read_symlink(each, error).string()));
   for (auto each = missing.rbegin(); each != missing.rend(); ++each) {
     if (each->filename().empty()) continue;  // "out/beam/": the folder itself comes as "out/beam"
     const bool made = fs::create_directory(*each, error);

@@ -1,11 +1,13 @@
 // The folder of a run's results: checked and made before the simulation, never cleared of foreign files.
 //
+// Whose file it is, is known from the earlier run.json alone: without it only unfinished files are removed,
+// and a file in the place of a result is replaced when that result is complete.
+//
 //   state.csv history.csv run.json sheet.png residual.png frames/frame_00000.png ... vtu/state_00000.vtu ...
 //   vtu/state.pvd
 //
 // Errors   Failure(usage): it holds files already and Replace::nothing was asked for; Failure(file): it is no
-// folder, or
-//          cannot be made, read or written
+//          folder, or cannot be made, read or written, or a folder is in the place of a result
 // Not here writing the files themselves
 #pragma once
 
@@ -18,7 +20,7 @@ namespace app {
 
 enum class Replace {
   nothing,     // only an empty or a new folder will do
-  earlier_run  // files with the names above, and their unfinished ".part", are removed; all others stay
+  earlier_run  // what an earlier run.json lists, and unfinished ".part" files, go; all others stay
 };
 
 class OutputFolder {
@@ -32,6 +34,11 @@ class OutputFolder {
 
   // The path of a file named as above; subfolders are made when first used.
   std::filesystem::path file(const std::string& name);
+  // Makes the subfolder of a series whose first file is given; a folder in the place of one of its files is
+  // refused.
+  void expect_series(const std::string& first);
+  // Removes the earlier run's files. Everything that may refuse the new run comes before.
+  void clear();
   // Notes that a file is complete.
   void made(const std::string& name) { made_.push_back(name); }
   const std::vector<std::string>& all_made() const { return made_; }
@@ -41,6 +48,7 @@ class OutputFolder {
 
   std::filesystem::path folder_;
   std::vector<std::filesystem::path> new_folders_;
+  std::vector<std::string> stale_;  // files of the earlier run, named as above
   std::vector<std::string> made_;
 };
 

@@ -103,4 +103,8 @@ void Recorder::include(double x, double y) {
              std::max(bounds_[3], y)};
 }
 
+bool nothing_to_colour(const rheo::PictureSettings& picture, const Recorder& recorder) {
+  return picture.range_auto && recorder.scalar_range() == std::array<double, 2>{0.0, 0.0};
+}
+
 }  // namespace app

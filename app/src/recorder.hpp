@@ -51,4 +51,7 @@ class Recorder : public OutputSink {
   std::array<double, 2> range_;
 };
 
+// All recorded scalars are 0 and the range is theirs: a colour bar would show a range that does not exist.
+bool nothing_to_colour(const rheo::PictureSettings& picture, const Recorder& recorder);
+
 }  // namespace app

@@ -1,6 +1,12 @@
 #include "run_report.hpp"
 
+#include <fmt/format.h>
+#include <sys/utsname.h>
+
+#include <CLI/Version.hpp>
+#include <array>
 #include <cmath>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "option_values.hpp"
@@ -21,7 +27,7 @@ Json settings_of(const Options& options, const rheo::Simulation& simulation, con
   Json json;
   json["integrator"] = name_of(time.integrator);
   json["kernel"] = simulation.kernel();
-  json["step_asked"] = time.step;
+  json["step_asked"] = time.step > 0.0 ? Json(time.step) : Json("auto");
   json["step_bound"] = number(simulation.step_bound());
   json["largest_step"] = number(report.largest_step);
   json["stable_step"] = number(simulation.stable_step());
@@ -31,6 +37,35 @@ Json settings_of(const Options& options, const rheo::Simulation& simulation, con
   json["frame_rate"] = time.frame_rate;
   json["threads"] = options.threads;
   json["renderer"] = report.renderer.empty() ? Json(nullptr) : Json(report.renderer);
+  return json;
+}
+
+Json toolchain() {
+  Json json{{"compiler", RHEO_COMPILER}, {"standard", __cplusplus}};
+#ifdef __GLIBCXX__
+  json["standard_library"] = fmt::format("libstdc++ {}", __GLIBCXX__);
+#endif
+#ifdef _LIBCPP_VERSION
+  json["standard_library"] = fmt::format("libc++ {}", _LIBCPP_VERSION);
+#endif
+  utsname system{};
+  if (uname(&system) == 0) json["system"] = fmt::format("{} {}", system.sysname, system.machine);
+  return json;
+}
+
+Json libraries() {
+  return {{"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+          {"CLI11", CLI11_VERSION},
+          {"nlohmann_json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                                        NLOHMANN_JSON_VERSION_PATCH)}};
+}
+
+Json read_files_of(const std::vector<Fingerprint>& files) {
+  Json json = Json::array();
+  for (const Fingerprint& file : files)
+    json.push_back({{"path", file.path},
+                    {"bytes", file.bytes ? Json(*file.bytes) : Json(nullptr)},
+                    {"fnv1a_64", file.fnv1a ? Json(fmt::format("{:016x}", *file.fnv1a)) : Json(nullptr)}});
   return json;
 }
 
@@ -58,6 +93,25 @@ Json divergence_of(const std::optional<rheo::Divergence>& divergence) {
 
 }  // namespace
 
+Fingerprint fingerprint(const std::string& path) {
+  Fingerprint result{.path = path, .bytes = {}, .fnv1a = {}};
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return result;
+  std::ifstream file(path, std::ios::binary);
+  std::uint64_t hash = 0xcbf29ce484222325u, bytes = 0;
+  std::array<char, 65536> block{};
+  while (file.read(block.data(), block.size()), file.gcount() > 0) {
+    const auto count = static_cast<std::size_t>(file.gcount());
+    for (std::size_t i = 0; i < count; ++i)
+      hash = (hash ^ static_cast<unsigned char>(block[i])) * 0x100000001b3u;
+    bytes += count;
+  }
+  if (bytes == 0) return result;  // the reader found something in it: it cannot be read now
+  result.bytes = bytes;
+  result.fnv1a = hash;
+  return result;
+}
+
 void write_run_report(const std::filesystem::path& path, const Options& options,
                       const rheo::Simulation& simulation, const RunReport& report) {
   const rheo::Scene& scene = simulation.scene();
@@ -65,9 +119,14 @@ void write_run_report(const std::filesystem::path& path, const Options& options,
   json["rheo"] = RHEO_VERSION;
   json["compiler"] = RHEO_COMPILER;
   json["build_type"] = RHEO_BUILD_TYPE;
+  json["toolchain"] = toolchain();
+  json["libraries"] = libraries();
   json["command_line"] = options.words;
+  std::error_code gone;
+  json["working_directory"] = std::filesystem::current_path(gone).string();
   json["scene_file"] = options.scene.string();
   json["scene"] = report.scene_text;
+  json["read_files"] = read_files_of(report.read_files);
   json["title"] = scene.title;
   json["settings"] = settings_of(options, simulation, report);
   json["mesh"] = {{"nodes", scene.mesh.node_count()}, {"triangles", scene.mesh.triangle_count()}};
@@ -75,7 +134,7 @@ void write_run_report(const std::filesystem::path& path, const Options& options,
   json["files"] = report.files;
   json["counters"] = counters_of(simulation.counters());
   json["seconds"] = seconds_of(report.seconds);
-  json["notes"] = scene.notes;
+  json["notes"] = report.notes;
   json["warnings"] = report.warnings;
   json["exit_status"] = static_cast<int>(report.divergence ? ExitCode::diverged : ExitCode::done);
   json["divergence"] = divergence_of(report.divergence);

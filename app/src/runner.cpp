@@ -13,6 +13,7 @@
 #include "failure.hpp"
 #include "history_file.hpp"
 #include "linearity_watch.hpp"
+#include "memory_need.hpp"
 #include "option_values.hpp"
 #include "output_folder.hpp"
 #include "overrides.hpp"
@@ -21,6 +22,7 @@
 #include "recorder.hpp"
 #include "rheo/io/results.hpp"
 #include "rheo/simulation.hpp"
+#include "run_notes.hpp"
 #include "run_report.hpp"
 #include "sequence.hpp"
 #include "vtu_series.hpp"
@@ -144,6 +146,8 @@ void run_scene(const Options& options) {
   std::optional<Timed> timed(seconds.read);
   rheo::Scene scene = load_scene(options);
   report.scene_text = file_text(options.scene);
+  for (const std::string& file : scene.files) report.read_files.push_back(fingerprint(file));
+  require_memory(scene, options);
   timed.emplace(seconds.build);
   rheo::Simulation simulation(std::move(scene), options.simulation);
   timed.emplace(seconds.draw);
@@ -154,16 +158,19 @@ void run_scene(const Options& options) {
 
   OutputFolder folder(options.folder, options.force ? Replace::earlier_run : Replace::nothing);
   // Whatever is in the way of the files to come shows now, not after the simulation.
-  if (options.vtu) folder.file(vtu_name(0));
-  if (sequence) folder.file(frame_name(0));
-  for (const std::string& note : simulation.scene().notes) progress.line("note: " + note);
+  if (options.vtu) folder.expect_series(vtu_name(0));
+  if (sequence) folder.expect_series(frame_name(0));
+  std::optional<Recorder> recorder;
+  if (sequence) recorder.emplace(simulation.scene(), folder.path());
+  folder.clear();
+  report.notes = run_notes(simulation.scene());
+  for (const std::string& note : report.notes) progress.line("note: " + note);
   HistoryFile history(folder.file("history.csv"), simulation.scene());
   LinearityWatch watch(progress);
   std::vector<Sink> sinks{{&history, &seconds.write}, {&watch, &seconds.write}};
   std::optional<VtuSeries> vtu;
   if (options.vtu) sinks.push_back({&vtu.emplace(folder), &seconds.write});
-  std::optional<Recorder> recorder;
-  if (sequence) sinks.push_back({&recorder.emplace(simulation.scene(), folder.path()), &seconds.write});
+  if (recorder) sinks.push_back({&*recorder, &seconds.write});
 
   const Passed passed = simulate(simulation, sinks, progress, seconds);
   progress.end();
@@ -179,6 +186,11 @@ void run_scene(const Options& options) {
   if (vtu) vtu->finish();
   timed.reset();
 
+  if (recorder && nothing_to_colour(simulation.scene().picture, *recorder)) {
+    report.notes.push_back(fmt::format("{} is zero everywhere and always: there is nothing to colour",
+                                       name_of(simulation.scene().picture.color)));
+    progress.line("note: " + report.notes.back());
+  }
   if (sequence) sequence->draw(simulation.scene(), *recorder, history, folder, progress, seconds);
 
   folder.made("run.json");

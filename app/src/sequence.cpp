@@ -98,12 +98,14 @@ class LoadedEdges {
 
 // A recorded output with its own memory, as the renderer's view of it.
 struct LoadedFrame {
-  std::vector<double> positions, scalar;
-  std::vector<render::TractionArrow> arrows;
+  std::vector<double> positions{}, scalar{};
+  std::vector<render::TractionArrow> arrows{};
   const RecordedLoads* loads = nullptr;
+  bool bare = false;  // nothing to colour
 
   void load(const Recorder& recorder, const LoadedEdges& edges, std::int64_t k) {
     recorder.read(k, positions, scalar);
+    if (bare) scalar.clear();
     loads = &recorder.loads(k);
     arrows = edges.arrows(*loads, positions);
   }
@@ -124,7 +126,7 @@ double largest_traction(const Recorder& recorder, const LoadedEdges& edges) {
 std::array<double, 2> colour_range(const rheo::PictureSettings& picture, const Recorder& recorder) {
   if (!picture.range_auto) return picture.range;
   std::array<double, 2> range = recorder.scalar_range().value_or(std::array<double, 2>{0.0, 1.0});
-  // Nothing moved: any width will do, and the picture is all of the lowest colour.
+  // One value everywhere: any width will do, and the picture is all of the lowest colour.
   if (!(range[1] > range[0])) range[1] = range[0] + (range[0] != 0.0 ? std::abs(range[0]) : 1.0);
   return range;
 }
@@ -149,11 +151,12 @@ struct Sequence::Impl {
   std::unique_ptr<render::Context> context;
   int threads = 1;
   std::optional<int> shapes;
+  bool bare = false;  // nothing to colour
 
   void draw_frames(render::MeshPicture& picture, const Recorder& recorder, const LoadedEdges& edges,
                    OutputFolder& folder, Progress& progress, Seconds& seconds) const {
     render::PngSequence png(threads);
-    LoadedFrame frame;
+    LoadedFrame frame{.bare = bare};
     progress.begin("drawing", recorder.count());
     for (std::int64_t k = 0; k < recorder.count(); ++k) {
       render::Image image = png.recycle();
@@ -183,7 +186,7 @@ struct Sequence::Impl {
       const Timed timed(seconds.draw);
       for (const std::int64_t k :
            sheet_frames(recorder.count(), scene.time.frame_rate, event_times(scene), shapes))
-        frames.emplace_back().load(recorder, edges, k);
+        frames.emplace_back(LoadedFrame{.bare = bare}).load(recorder, edges, k);
       for (const LoadedFrame& frame : frames) views.push_back(frame.view());
       image = picture.sheet(views);
     }
@@ -200,6 +203,16 @@ struct Sequence::Impl {
     plot.y_label = "norm over all nodes [Pa m]";
     plot.series.push_back({.name = "|w_lambda|", .x = history.times(), .y = history.w_lambda_norms()});
     plot.series.push_back({.name = "|w_mu|", .x = history.times(), .y = history.w_mu_norms()});
+    // The axes show time from 0 to where the run went, and norms from 0, even of one output or a scene at
+    // rest. Two equal points draw nothing, but count for the axes.
+    const bool whole = history.times().size() == static_cast<std::size_t>(rheo::output_count(scene.time));
+    const double end = whole || history.times().back() <= 0.0 ? scene.time.duration : history.times().back();
+    const double top =
+        std::max(std::ranges::max(history.w_lambda_norms()), std::ranges::max(history.w_mu_norms()));
+    const double highest = top > 0.0 ? top : 1.0;
+    const std::array<double, 2> zeros{}, end_x{end, end}, end_y{highest, highest};
+    plot.series.push_back({.name = "", .x = zeros, .y = zeros});
+    plot.series.push_back({.name = "", .x = end_x, .y = end_y});
     for (const double t : event_times(scene))
       if (t <= history.times().back()) plot.marks.push_back(t);
     render::Image image;
@@ -232,16 +245,18 @@ void Sequence::draw(const rheo::Scene& scene, const Recorder& recorder, const Hi
   const std::vector<int> triangles = flat_numbers(scene.mesh.triangles);
   const std::vector<int> boundary = flat_numbers(scene.mesh.edge_groups.at("boundary"));
   const LoadedEdges edges(scene);
+  const bool bare = nothing_to_colour(scene.picture, recorder);
   const ScalarText scalar = text_of(scene.picture.color);
   const render::MeshLayout layout{.rest = rest,
                                   .triangles = triangles,
                                   .boundary = boundary,
                                   .title = scene.title,
-                                  .scalar_name = scalar.name,
-                                  .scalar_unit = scalar.unit,
+                                  .scalar_name = bare ? "" : scalar.name,
+                                  .scalar_unit = bare ? "" : scalar.unit,
                                   .range = colour_range(scene.picture, recorder),
                                   .bounds = recorder.bounds(),
                                   .arrow_scale = largest_traction(recorder, edges)};
+  impl_->bare = bare;
   render::MeshPicture picture(*impl_->context, layout);
   impl_->draw_frames(picture, recorder, edges, folder, progress, seconds);
   impl_->draw_sheet(scene, picture, recorder, edges, folder, seconds);

@@ -62,6 +62,37 @@ TEST_F(Check, SaysThatEulerHasNoStableStepWithoutDamping) {
   EXPECT_EQ(row(finished.out, "mu"), "5 Pa, never relaxes");
 }
 
+TEST_F(Check, ReportsBeforeItRefusesAStepBeyondTheLimit) {
+  write("beam.toml", small_beam());
+  const Finished finished = rheo({"check", "beam.toml", "--step", "0.5"});
+  expect_failure(finished, 2, {"0.5", "stable step", "--allow-unstable"});
+  EXPECT_THAT(row(finished.out, "step"), HasSubstr("beyond the stable step"));
+  EXPECT_THAT(row(finished.out, "stable rk4"), HasSubstr(" s"));
+  EXPECT_THAT(row(finished.out, "cost"), HasSubstr("would be refused"));
+  EXPECT_THAT(row(finished.out, "memory"), HasSubstr("MB"));
+  EXPECT_EQ(rheo({"run", "beam.toml", "--step", "0.5"}).err, finished.err);
+}
+
+TEST_F(Check, ReportsBeforeItRefusesEulerWithoutDamping) {
+  std::string text = small_beam_with("lambda_vis = 4.0", "lambda_vis = inf");
+  text.replace(text.find("mu_vis = 2.0"), 12, "mu_vis = inf");
+  write("elastic.toml", text);
+  const Finished finished = rheo({"check", "elastic.toml", "--integrator", "euler"});
+  expect_failure(finished, 2, {"no step of", "rk4"});
+  EXPECT_EQ(row(finished.out, "integrator"), "euler");
+  EXPECT_THAT(row(finished.out, "step"), HasSubstr("none: no step of euler"));
+  EXPECT_THAT(row(finished.out, "outputs"), HasSubstr("11"));
+  EXPECT_EQ(rheo({"run", "elastic.toml", "--integrator", "euler"}).err, finished.err);
+}
+
+TEST_F(Check, ForecastsNothingOfARunThatDiverges) {
+  write("beam.toml", small_beam());
+  const Finished finished =
+      rheo({"check", "beam.toml", "--step", "0.5", "--duration", "500", "--allow-unstable"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_THAT(row(finished.out, "cost"), HasSubstr("diverges"));
+}
+
 TEST_F(Check, TakesOverrides) {
   write("beam.toml", small_beam());
   const Finished finished =

@@ -48,30 +48,90 @@ TEST_F(OutputFolder, ForeignContentIsRefusedWithoutForce) {
   EXPECT_THAT(files(), ElementsAre("beam.toml", "results", "results/thesis.tex"));
 }
 
-TEST_F(OutputFolder, ForceRemovesWhatRheoWroteAndNothingElse) {
-  for (const char* own : {"state.csv", "history.csv", "run.json", "sheet.png", "residual.png",
-                          "history.csv.part", "frames/frame_00000.png", "frames/frame_123456.png",
-                          "frames/frame_00001.png.part", "vtu/state_00000.vtu", "vtu/state.pvd"})
-    write(std::string("results/") + own, "old");
+TEST_F(OutputFolder, ForceRemovesWhatTheEarlierRunListedAndNothingElse) {
+  const std::vector<std::string> listed{"state.csv",           "history.csv",
+                                        "sheet.png",           "frames/frame_00000.png",
+                                        "vtu/state_00000.vtu", "vtu/state.pvd"};
+  for (const std::string& name : listed) write("results/" + name, "old");
+  write("results/history.csv.part", "old");
+  write("results/frames/frame_00001.png.part", "old");
+  write("results/run.json",
+        R"({"rheo": "0", "files": ["state.csv", "history.csv", "sheet.png", "frames/frame_00000.png",
+            "vtu/state_00000.vtu", "vtu/state.pvd", "run.json", "notes.txt", "../beam.toml"]})");
   const std::vector<std::string> foreign{
-      "state.csv.bak",      "notes.txt",       "frames/frame_0.png",
-      "frames/frame_x.png", "frames/film.mp4", "vtu/view.pvsm",
-      "deeper/run.json",    "frame_00000.png", "frames/frame_00000.png.old"};
+      "state.csv.bak",       "notes.txt",    "frames/frame_00001.png", "frames/film.mp4",
+      "vtu/state_00007.vtu", "residual.png", "deeper/run.json",        "frames/frame_00000.png.old"};
   for (const std::string& name : foreign) write("results/" + name, "mine");
   ASSERT_EQ(rheo({"run", "beam.toml", "-o", "results", "--force"}).exit_code, 0);
   for (const std::string& name : foreign) EXPECT_EQ(read_text(folder() / "results" / name), "mine") << name;
-  for (const char* stale :
-       {"sheet.png", "residual.png", "history.csv.part", "frames/frame_00000.png", "frames/frame_123456.png",
-        "frames/frame_00001.png.part", "vtu/state_00000.vtu", "vtu/state.pvd"})
+  EXPECT_EQ(read_text(folder() / "beam.toml"), small_beam());
+  for (const char* stale : {"sheet.png", "frames/frame_00000.png", "vtu/state_00000.vtu", "vtu/state.pvd",
+                            "history.csv.part", "frames/frame_00001.png.part"})
     EXPECT_FALSE(fs::exists(folder() / "results" / stale)) << stale;
   for (const char* fresh : {"state.csv", "history.csv", "run.json"})
     EXPECT_NE(read_text(folder() / "results" / fresh), "old") << fresh;
 }
 
-TEST_F(OutputFolder, ForceRemovesSubfoldersThatItEmptied) {
-  write("results/frames/frame_00000.png", "old");
+TEST_F(OutputFolder, ForceRemovesNothingWhereNoRunJsonTellsWhoseItIs) {
+  const std::vector<std::string> foreign{"frames/frame_00001.png", "sheet.png", "residual.png",
+                                         "vtu/state_00007.vtu"};
+  for (const std::string& name : foreign) write("results/" + name, "mine");
   ASSERT_EQ(rheo({"run", "beam.toml", "-o", "results", "--force"}).exit_code, 0);
-  EXPECT_FALSE(fs::exists(folder() / "results/frames"));
+  for (const std::string& name : foreign) EXPECT_EQ(read_text(folder() / "results" / name), "mine") << name;
+  EXPECT_TRUE(fs::exists(folder() / "results/state.csv"));
+}
+
+TEST_F(OutputFolder, AnotherProgramsRunJsonIsNoListOfFiles) {
+  for (const char* text : {"not JSON", "[]", R"({"files": ["sheet.png"]})", R"({"rheo": "1", "files": 3})"}) {
+    write("results/run.json", text);
+    write("results/sheet.png", "mine");
+    ASSERT_EQ(rheo({"run", "beam.toml", "-o", "results", "--force"}).exit_code, 0) << text;
+    EXPECT_EQ(read_text(folder() / "results/sheet.png"), "mine") << text;
+  }
+}
+
+TEST_F(OutputFolder, WhatAnInterruptedRunLeftIsNamedAndForceRemovesIt) {
+  write("results/history.csv.part", "old");
+  write("results/frames/frame_00003.png.part", "old");
+  expect_failure(rheo({"run", "beam.toml", "-o", "results"}), 2, {"results", "interrupted run", "--force"});
+  ASSERT_EQ(rheo({"run", "beam.toml", "-o", "results", "--force"}).exit_code, 0);
+  EXPECT_THAT(files(), ElementsAre("beam.toml", "results", "results/history.csv", "results/run.json",
+                                   "results/state.csv"));
+}
+
+TEST_F(OutputFolder, AnObstacleIsFoundBeforeAnythingIsRemoved) {
+  ASSERT_EQ(rheo({"run", "beam.toml", "-o", "results", "--vtu"}).exit_code, 0);
+  fs::create_directory(folder() / "results/sheet.png");
+  const std::vector<std::string> before = files();
+  expect_failure(rheo({"run", "beam.toml", "-o", "results", "--force"}), 4, {"sheet.png", "is a folder"});
+  EXPECT_EQ(files(), before);
+  fs::remove(folder() / "results/sheet.png");
+  fs::remove(folder() / "results/vtu/state_00003.vtu");
+  fs::create_directory(folder() / "results/vtu/state_00003.vtu");
+  expect_failure(rheo({"run", "beam.toml", "-o", "results", "--force", "--vtu"}), 4,
+                 {"state_00003.vtu", "is a folder"});
+  EXPECT_TRUE(fs::exists(folder() / "results/state.csv"));
+  EXPECT_TRUE(fs::exists(folder() / "results/vtu/state_00000.vtu"));
+}
+
+TEST_F(OutputFolder, AFolderInThePlaceOfRunJsonIsRefusedWithNothingRemoved) {
+  write("results/run.json/precious.txt", "mine");
+  write("results/history.csv.part", "old");
+  const std::vector<std::string> before = files();
+  expect_failure(rheo({"run", "beam.toml", "-o", "results", "--force"}), 4, {"run.json", "is a folder"});
+  EXPECT_EQ(files(), before);
+}
+
+TEST_F(OutputFolder, ALinkToNowhereIsNamed) {
+  fs::create_symlink("nowhere", folder() / "link");
+  expect_failure(rheo({"run", "beam.toml", "-o", "link"}), 4, {"link", "nowhere", "does not exist"});
+  expect_failure(rheo({"run", "beam.toml", "-o", "link/deeper"}), 4, {"link", "nowhere", "does not exist"});
+}
+
+TEST_F(OutputFolder, ForceRemovesSubfoldersThatItEmptied) {
+  ASSERT_EQ(rheo({"run", "beam.toml", "-o", "results", "--vtu"}).exit_code, 0);
+  ASSERT_EQ(rheo({"run", "beam.toml", "-o", "results", "--force"}).exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder() / "results/vtu"));
 }
 
 TEST_F(OutputFolder, ForceKeepsTheOldResultsWhenTheNewSceneIsRefused) {

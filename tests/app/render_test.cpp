@@ -130,6 +130,17 @@ TEST_F(Render, QuietIsSilent) {
   EXPECT_EQ(finished.out + finished.err, "");
 }
 
+TEST_F(Render, ABranchThatIsOffHasNothingToColour) {
+  write("beam.toml", small_beam_with("lambda_ela = 7.0", "lambda_ela = 0.0"));
+  const Finished finished = render("w_lambda");
+  EXPECT_THAT(finished.out, HasSubstr("note: w_lambda is zero everywhere"));
+  render("none", {"--color", "none"});
+  EXPECT_EQ(read_text(folder() / "w_lambda/frames/frame_00004.png"),
+            read_text(folder() / "none/frames/frame_00004.png"));
+  EXPECT_THAT(read_text(folder() / "w_lambda/run.json"), HasSubstr("nothing to colour"));
+  EXPECT_THAT(render("w_mu", {"--color", "w_mu"}).out, Not(HasSubstr("nothing to colour")));
+}
+
 TEST_F(Render, ARestingSceneIsDrawnToo) {
   write("rest.toml", small_beam_with("vector = [5.0, 0.0]", "vector = [0.0, 0.0]"));
   const Finished finished = rheo({"render", "rest.toml", "-o", "r"});

@@ -1,8 +1,10 @@
 // What a run leaves in its folder: names, columns, rows, and numbers that balance.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "program.hpp"
@@ -130,6 +132,37 @@ TEST_F(Results, RunJsonHoldsWhatIsNeededToDoItAgain) {
   EXPECT_GE(json.at("counters").at("force_evaluations").get<std::int64_t>(), 4 * steps);
   for (const char* phase : {"read", "build", "simulate", "draw", "encode", "write"})
     EXPECT_GE(json.at("seconds").at(phase).get<double>(), 0.0);
+}
+
+TEST_F(Results, RunJsonNamesTheFilesThatTheSceneReads) {
+  write("scenes/keys.csv", "0,5,0\n0.2,0,0\n");
+  write("scenes/beam.toml", small_beam_with("vector = [5.0, 0.0]", "keys = \"keys.csv\""));
+  const Finished finished = rheo({"run", "scenes/beam.toml", "-o", "r"});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const auto json = nlohmann::json::parse(read_text(folder() / "r/run.json"));
+  ASSERT_THAT(json.at("read_files"), SizeIs(1));
+  EXPECT_EQ(json.at("read_files").at(0).at("path"), "scenes/keys.csv");
+  EXPECT_EQ(json.at("read_files").at(0).at("bytes"), 14);
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : read_text(folder() / "scenes/keys.csv"))
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  EXPECT_EQ(json.at("read_files").at(0).at("fnv1a_64"), fmt::format("{:016x}", hash));
+  EXPECT_EQ(json.at("working_directory"), fs::canonical(folder()).string());
+  EXPECT_EQ(json.at("settings").at("step_asked"), "auto");
+  for (const char* library : {"fmt", "CLI11", "nlohmann_json"})
+    EXPECT_THAT(json.at("libraries").at(library).get<std::string>(), HasSubstr("."));
+  EXPECT_EQ(json.at("toolchain").at("compiler"), json.at("compiler"));
+}
+
+TEST_F(Results, OutputsThatEndBeforeTheDurationAreToldOf) {
+  write("beam.toml", small_beam());
+  const Finished finished = rheo({"run", "beam.toml", "-o", "r", "--duration", "0.21"});
+  const std::string note = "outputs end at t = 0.2 s, state.csv is at the duration 0.21 s";
+  EXPECT_THAT(finished.out, HasSubstr("note: " + note));
+  const auto json = nlohmann::json::parse(read_text(folder() / "r/run.json"));
+  EXPECT_THAT(json.at("notes").dump(), HasSubstr(note));
+  EXPECT_THAT(rheo({"check", "beam.toml", "--duration", "0.21"}).out, HasSubstr(note));
+  EXPECT_THAT(rheo({"run", "beam.toml", "-o", "s", "--duration", "0.3"}).out, Not(HasSubstr("note: ")));
 }
 
 TEST_F(Results, TheSceneInRunJsonRunsAgainToTheSameState) {

@@ -1,6 +1,8 @@
 // Wrong usage: exit code 2, one line that names option, value and what is allowed, and nothing written.
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+
 #include "program.hpp"
 
 namespace app_tests {
@@ -56,6 +58,14 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"PictureOptionForRun", {"run", "beam.toml", "--size", "64x64"}, {"'--size'"}},
         Wrong{"FolderForCheck", {"check", "beam.toml", "-o", "x"}, {"'-o'"}},
         Wrong{"MissingValue", {"run", "beam.toml", "--step"}, {"--step", "value is missing"}},
+        Wrong{"OptionAsValue",
+              {"run", "beam.toml", "--step", "-o", "x"},
+              {"--step: its value is missing", "'-o'"}},
+        Wrong{"OptionAsName",
+              {"render", "beam.toml", "--color", "--force"},
+              {"--color: its value is missing", "'--force'"}},
+        Wrong{"FlagWithNumber", {"run", "beam.toml", "--quiet=3"}, {"--quiet takes no value"}},
+        Wrong{"FlagWithWord", {"run", "beam.toml", "--force=abc"}, {"--force takes no value"}},
         Wrong{
             "GivenTwice", {"run", "beam.toml", "--step", "1", "--step", "2"}, {"--step", "more than once"}}),
     name_of_wrong);
@@ -134,6 +144,20 @@ TEST_F(Usage, VersionIsTheProjects) {
   EXPECT_EQ(finished.exit_code, 0);
   EXPECT_EQ(finished.out, "rheo " RHEO_VERSION "\n");
 }
+
+// The address sanitizer reserves more than any limit.
+#if !defined(__SANITIZE_ADDRESS__)
+TEST_F(Usage, AMeshBeyondTheMemoryIsRefusedBeforeItIsBuilt) {
+  // 640,000 nodes: about 0.6 GB, beyond 0.5 GB.
+  write("big.toml", small_beam_with("nodes = [5, 2]", "nodes = [1600, 400]"));
+  const std::string command =
+      "cd '" + folder().string() + "' && ulimit -v 500000 && '" RHEO_PROGRAM "' run big.toml >out 2>err";
+  const int status = std::system(command.c_str());
+  expect_failure({WEXITSTATUS(status), "", read_text(folder() / "err")}, 2,
+                 {"640000 nodes", "GB", "ulimit -v", "coarser mesh"});
+  EXPECT_EQ(read_text(folder() / "out"), "");
+}
+#endif
 
 TEST_F(Usage, ALineBreakInAPathDoesNotBreakTheLine) {
   expect_failure(rheo({"run", "no\nsuch\nfile.toml"}), 4, {"no such file.toml"});

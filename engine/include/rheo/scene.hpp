@@ -131,6 +131,7 @@ struct Scene {
   PictureSettings picture;
   std::vector<std::string>
       notes;  // remarks of the reader for the user ("12 clockwise triangles turned round")
+  std::vector<std::string> files;  // that the scene file names and the reader opened, each once
 };
 
 // Limits against slips of the pen that would fill a disk or never end.

@@ -136,6 +136,7 @@ class SceneReader {
     const std::filesystem::path path = folder_ / name;
     mesh.attribute("file", file, [&] {
       scene_.mesh = read_msh(path);
+      scene_.files.push_back(path.string());
       note_turned(prepare(scene_.mesh, path.string()));
     });
   }
@@ -205,7 +206,7 @@ class SceneReader {
   }
 
   void read_items() {
-    ItemReader items(scene_.mesh, file_, folder_);
+    ItemReader items(scene_.mesh, scene_.files, file_, folder_);
     if (const TomlEntry* edges = root_.find("edges")) items.add_groups(*edges);
     for (const TomlValue& value : list("fix")) scene_.fixes.push_back(items.fix(value));
     for (const TomlValue& value : list("move")) scene_.moves.push_back(items.move(value));

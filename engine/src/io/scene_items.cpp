@@ -112,6 +112,8 @@ class ItemReader::Item : public TableReader {
     if (value.type == TomlValue::Type::string) {
       path = owner_.folder_ / value.text;
       attribute("keys", value, [&] { table = read_table(path, columns, form); });
+      std::vector<std::string>& files = owner_.files_;
+      if (std::find(files.begin(), files.end(), path.string()) == files.end()) files.push_back(path.string());
     } else {
       table = rows("keys", value, columns, fmt::format("[{}]", form));
     }
@@ -129,8 +131,9 @@ class ItemReader::Item : public TableReader {
   const ItemReader& owner_;
 };
 
-ItemReader::ItemReader(Mesh& mesh, std::string file, std::filesystem::path folder)
-    : mesh_(mesh), edges_(mesh), file_(std::move(file)), folder_(std::move(folder)) {}
+ItemReader::ItemReader(Mesh& mesh, std::vector<std::string>& files, std::string file,
+                       std::filesystem::path folder)
+    : mesh_(mesh), files_(files), edges_(mesh), file_(std::move(file)), folder_(std::move(folder)) {}
 
 void ItemReader::add_groups(const TomlEntry& table) {
   std::vector<std::string> names;

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "io/toml_tree.hpp"
 #include "mesh_edges.hpp"
@@ -17,8 +18,9 @@ namespace rheo {
 
 class ItemReader {
  public:
-  // `mesh` is prepared; its groups may be added to. `folder`: where relative paths start.
-  ItemReader(Mesh& mesh, std::string file, std::filesystem::path folder);
+  // `mesh` is prepared; its groups may be added to. `files` gets the tables of keys that are opened.
+  // `folder`: where relative paths start.
+  ItemReader(Mesh& mesh, std::vector<std::string>& files, std::string file, std::filesystem::path folder);
 
   // Adds the groups of [edges] to the mesh.
   void add_groups(const TomlEntry& table);
@@ -33,6 +35,7 @@ class ItemReader {
   class Item;
 
   Mesh& mesh_;
+  std::vector<std::string>& files_;
   MeshEdges edges_;
   std::string file_;
   std::filesystem::path folder_;

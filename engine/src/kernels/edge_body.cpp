@@ -43,8 +43,6 @@ EdgeBody::EdgeBody(const Model& model, const EdgeForce& force)
 
   corner_begin_ = block_begins(form_, form_.corners);
   const Material& m = model.material;
-  const double l = m.lambda_rate();
-  const double r = m.mu_rate();
   parts_ = {StatePart{4 * n, smallest_share(model)}, StatePart{2 * n, 1.0}, StatePart{2 * n, 1.0}};
   for (int axis = 0; axis < 2; ++axis) {
     material_.growth[axis] = m.lambda_ela;
