@@ -200,7 +200,7 @@ struct Sequence::Impl {
     render::Plot plot;
     plot.title = scene.title.empty() ? "Residual forces" : scene.title + ": residual forces";
     plot.x_label = "t [s]";
-    plot.y_label = "norm over all nodes [Pa m]";
+    plot.y_label = "|w| [Pa m]";
     plot.series.push_back({.name = "|w_lambda|", .x = history.times(), .y = history.w_lambda_norms()});
     plot.series.push_back({.name = "|w_mu|", .x = history.times(), .y = history.w_mu_norms()});
     // The axes show time from 0 to where the run went, and norms from 0, even of one output or a scene at

@@ -161,16 +161,25 @@ Image MeshPicture::sheet(std::span<const MeshFrame> frames) {
     cell.y0 = std::min(cell.y0 + label, cell.y1);
     return cell;
   };
-  const Grid grid = choose_grid(static_cast<int>(frames.size()), p.body,
-                                [&](const Rect& cell) { return framing.fit(below_label(cell)).scale; });
+  float widest = 0.0f;
+  for (const MeshFrame& frame : frames)
+    widest = std::max(widest, m.canvas.text_width(TextSize::small, time_text(frame.time)));
+  // Cells too narrow for their times are taken only where no grid has others.
+  constexpr double cramped = 1e-6;
+  const Grid grid = choose_grid(static_cast<int>(frames.size()), p.body, [&](const Rect& cell) {
+    const double scale = framing.fit(below_label(cell)).scale;
+    return cell.width() < widest + text ? cramped * scale : scale;
+  });
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Rect room = below_label(grid_cell(grid, p.body, static_cast<int>(i)));
     const Camera camera = framing.fit(room);
     m.draw_body(camera, frames[i], m.sheet_arrow_length(), {});
     // The time stands above what the camera shows, not above an empty part of the cell.
     const float top = framing.covered(camera, room).y0;
-    const Point at{camera.pixel(m.body.bounds[0], 0).x, top - label + 0.5f * text};
-    m.canvas.text(at, Align::left, TextSize::small, theme::ink, time_text(frames[i].time));
+    const std::string time = time_text(frames[i].time);
+    const float rightmost = room.x1 - m.canvas.text_width(TextSize::small, time);
+    const Point at{std::min(camera.pixel(m.body.bounds[0], 0).x, rightmost), top - label + 0.5f * text};
+    m.canvas.text(at, Align::left, TextSize::small, theme::ink, time);
   }
   m.draw_heading(p, {});
   m.canvas.flush();
