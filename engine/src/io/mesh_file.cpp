@@ -73,8 +73,10 @@ class MshReader {
     bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
     const std::string_view guess = other_format(bytes);
     if (in_.line() != "$MeshFormat") {
-      in_.refuse("no Gmsh MSH file (it would begin with $MeshFormat){}{}",
-                 guess.empty() ? "" : "; it looks like ", guess);
+      in_.refuse(
+          "no Gmsh MSH file (it would begin with $MeshFormat){}{}: give one made with: gmsh -2 FILE -format "
+          "msh41 -o FILE.msh",
+          guess.empty() ? "" : "; it looks like ", guess);
     }
     const std::string_view line = in_.line();
     const std::string_view version = line.substr(0, line.find(' '));

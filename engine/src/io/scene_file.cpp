@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <utility>
@@ -250,6 +251,10 @@ class SceneReader {
     if (const TomlValue* range = render.find("range"); range != nullptr && range->text != "auto") {
       if (range->type != TomlValue::Type::array) {
         render.refuse("range", *range, "\"auto\" or [low, high] is needed");
+      }
+      const auto finite = [](const TomlValue& x) { return x.is_number() && std::isfinite(x.number); };
+      if (range->items.size() != 2 || !finite(range->items[0]) || !finite(range->items[1])) {
+        render.refuse("range", *range, "\"auto\" or [low, high], each a finite number, is needed");
       }
       const Vec2 limits = render.pair("range", *range, {});
       p.range_auto = false;
