@@ -16,8 +16,8 @@ class EdgeBody final : public Body {
   // `force` must outlive this.
   EdgeBody(const Model& model, const EdgeForce& force);
 
-  // The state's p mixes w_lambda and w_mu: the smaller's size over the larger's, both driven by the same v at
-  // the largest frequency. The smaller's rounding errors are larger by as much.
+  // The state's part p holds w_lambda and w_mu: the smaller's size over the larger's, both driven by the same v
+  // at the largest frequency. An error bound for p has to be smaller by as much to hold for both.
   static double smallest_share(const Model& model);
 
   std::string_view kernel() const override { return "edge"; }
