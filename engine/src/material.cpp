@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "rheo/error.hpp"
+#include "rheo/limits.hpp"
 
 namespace rheo {
 
@@ -14,11 +15,17 @@ void Material::validate(const std::string& where) const {
     const std::string prefix = where.empty() ? where : where + " ";
     throw Error(Error::Kind::input, fmt::format("{}{} = {}: {}", prefix, name, value, allowed));
   };
+  const auto usable = [&](const char* name, double value, const char* beside) {
+    check(of_usable_size(value), name, value,
+          fmt::format("{:g} to {:g} is allowed{}", smallest_size, largest_size, beside).c_str());
+  };
   const auto modulus = [&](const char* name, double value) {
     check(value >= 0.0 && std::isfinite(value), name, value, "a finite number >= 0 (Pa) is needed");
+    if (value != 0.0) usable(name, value, " (Pa), and 0");
   };
   const auto viscosity = [&](const char* name, double value) {
     check(value > 0.0, name, value, "a number > 0 (Pa s) is needed; inf: never relaxes");
+    if (std::isfinite(value)) usable(name, value, " (Pa s), and inf");
   };
   modulus("lambda_ela", lambda_ela);
   modulus("mu_ela", mu_ela);
@@ -26,12 +33,7 @@ void Material::validate(const std::string& where) const {
   viscosity("mu_vis", mu_vis);
   check(density > 0.0 && std::isfinite(density), "density", density,
         "a finite number > 0 (kg/m^3) is needed");
-  const auto rate_is_finite = [&](const char* name, double value, const char* vis_name, double vis) {
-    check(std::isfinite(value), vis_name, vis,
-          fmt::format("so far below {} that the relaxation rate is no finite number", name).c_str());
-  };
-  rate_is_finite("lambda_ela", lambda_rate(), "lambda_vis", lambda_vis);
-  rate_is_finite("mu_ela", mu_rate(), "mu_vis", mu_vis);
+  usable("density", density, " (kg/m^3)");
 }
 
 }  // namespace rheo

@@ -8,6 +8,7 @@
 
 #include "mesh_edges.hpp"
 #include "rheo/error.hpp"
+#include "rheo/limits.hpp"
 
 namespace rheo {
 namespace {
@@ -49,6 +50,9 @@ class Preparation {
     if (!(mesh_.thickness > 0.0) || !std::isfinite(mesh_.thickness)) {
       refuse("thickness = {}: a positive, finite number of metres is needed", mesh_.thickness);
     }
+    if (!of_usable_size(mesh_.thickness)) {
+      refuse("thickness = {}: {:g} to {:g} m is allowed", mesh_.thickness, smallest_size, largest_size);
+    }
     if (mesh_.triangles.empty()) refuse("the mesh has no triangles: at least one is needed");
     constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max() / 6);
     if (mesh_.points.size() > most || mesh_.triangles.size() > most) {
@@ -62,6 +66,9 @@ class Preparation {
       const Vec2 p = mesh_.points[i];
       if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
         refuse("node {} at ({}, {}): finite coordinates are needed", i, p.x, p.y);
+      }
+      if (!within_size(p.x) || !within_size(p.y)) {
+        refuse("node {} at ({}, {}): at most {:g} m from the origin is allowed", i, p.x, p.y, largest_size);
       }
     }
   }
@@ -91,6 +98,10 @@ class Preparation {
       if (!(2.0 * std::abs(area) > flat_fraction * longest2) || !std::isfinite(longest2)) {
         refuse("{}: it has no area ({} m^2 with a longest side of {} m); its nodes must not lie on a line",
                name(i), std::abs(area), std::sqrt(longest2));
+      }
+      if (const double longest = std::sqrt(longest2); !of_usable_size(longest)) {
+        refuse("{}: its longest side has {} m; {:g} to {:g} m is allowed", name(i), longest, smallest_size,
+               largest_size);
       }
       if (area < 0.0) {
         std::swap(t[1], t[2]);

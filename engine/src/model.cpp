@@ -140,15 +140,15 @@ void Model::multiply_mass(const double* x, double* out) const {
   }
 }
 
-Vector Model::stiffness(const Vector& x) const {
+Vector Model::stiffness(double lambda, double mu, const Vector& x) const {
   Vector result = Vector::Zero(x.size());
   if (edges) {
     const auto size = static_cast<std::size_t>(x.size());
-    edges->stiffness(material.lambda_ela, material.mu_ela, {x.data(), size}, {result.data(), size});
+    edges->stiffness(lambda, mu, {x.data(), size}, {result.data(), size});
     return result;
   }
-  if (layout.lambda) result += material.lambda_ela * (j_lambda * x);
-  if (layout.mu) result += material.mu_ela * (j_mu * x);
+  if (layout.lambda && lambda != 0.0) result += lambda * (j_lambda * x);
+  if (layout.mu && mu != 0.0) result += mu * (j_mu * x);
   return result;
 }
 

@@ -45,8 +45,8 @@ struct Model {
 
   // out = M x for x of 2n numbers.
   void multiply_mass(const double* x, double* out) const;
-  // (lambda_ela J_lambda + mu_ela J_mu) x
-  Vector stiffness(const Vector& x) const;
+  // (lambda J_lambda + mu J_mu) x
+  Vector stiffness(double lambda, double mu, const Vector& x) const;
 
   Material material;
   Layout layout;

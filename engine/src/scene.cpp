@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "rheo/error.hpp"
+#include "rheo/limits.hpp"
 
 namespace rheo {
 namespace {
@@ -18,9 +19,11 @@ namespace {
   throw Error(Error::Kind::input, where.empty() ? text : where + " " + text);
 }
 
-bool finite(Vec2 value) {
-  return std::isfinite(value.x) && std::isfinite(value.y);
+// Finite, and of a size that can be computed with.
+bool usable(Vec2 value) {
+  return within_size(value.x) && within_size(value.y);
 }
+const std::string usable_numbers = fmt::format("finite numbers of at most {:g} in size", largest_size);
 
 void check_node(const std::string& where, int node, const Mesh& mesh) {
   if (node >= 0 && node < mesh.node_count()) return;
@@ -45,13 +48,13 @@ void check_window(const std::string& where, Window window) {
   }
 }
 
-// `values_are_finite(key)` says whether all but the time is finite.
-template <typename Key, typename ValuesAreFinite>
-void check_keys(const std::string& where, const std::vector<Key>& keys, ValuesAreFinite values_are_finite) {
+// `values_are_usable(key)` says whether all but the time is usable.
+template <typename Key, typename ValuesAreUsable>
+void check_keys(const std::string& where, const std::vector<Key>& keys, ValuesAreUsable values_are_usable) {
   if (keys.empty()) refuse(where, "no keys: at least one is needed");
   for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (!std::isfinite(keys[i].t) || !values_are_finite(keys[i])) {
-      refuse(where, fmt::format("key {} at t = {}: finite numbers are needed", i, keys[i].t));
+    if (!within_size(keys[i].t) || !values_are_usable(keys[i])) {
+      refuse(where, fmt::format("key {} at t = {}: {} are needed", i, keys[i].t, usable_numbers));
     }
     if (i > 0 && !(keys[i].t > keys[i - 1].t)) {
       refuse(where, fmt::format("key {} at t = {} is not after key {} at t = {}: times must rise", i,
@@ -66,19 +69,19 @@ void check_constraint(const Constraint& constraint, const Mesh& mesh) {
   for (const ConstraintTerm& term : constraint.terms) {
     check_node(constraint.where, term.node, mesh);
     if (term.axis == Axis::both) refuse(constraint.where, "axis both: a term needs \"x\" or \"y\"");
-    if (!std::isfinite(term.coefficient) || term.coefficient == 0.0) {
+    if (!of_usable_size(std::abs(term.coefficient))) {
       refuse(constraint.where,
-             fmt::format("coefficient {} of node {}: a finite number other than 0 is needed",
-                         term.coefficient, term.node));
+             fmt::format("coefficient {} of node {}: a number of {:g} to {:g} in size is needed",
+                         term.coefficient, term.node, smallest_size, largest_size));
     }
     if (!seen.insert({term.node, term.axis}).second) {
       refuse(constraint.where, fmt::format("node {} twice along {}: add the coefficients up", term.node,
                                            term.axis == Axis::x ? 'x' : 'y'));
     }
   }
-  if (!std::isfinite(constraint.value)) {
-    refuse(constraint.where,
-           fmt::format("value = {}: a finite number of metres is needed", constraint.value));
+  if (!within_size(constraint.value)) {
+    refuse(constraint.where, fmt::format("value = {}: a finite number of at most {:g} m is needed",
+                                         constraint.value, largest_size));
   }
 }
 
@@ -89,7 +92,7 @@ void check_traction(const Traction& traction, const Mesh& mesh) {
     if (edge[0] == edge[1])
       refuse(traction.where, fmt::format("edge ({0}, {0}): two different nodes", edge[0]));
   }
-  check_keys(traction.where, traction.keys, [](const TractionKey& key) { return finite(key.p); });
+  check_keys(traction.where, traction.keys, [](const TractionKey& key) { return usable(key.p); });
   check_window(traction.where, traction.window);
 }
 
@@ -115,12 +118,15 @@ void check_probes(const std::vector<Probe>& probes, const Mesh& mesh) {
 void validate(const TimeSettings& time) {
   const std::string where = "[time]";
   const auto positive = [&](const char* name, double value, const char* unit) {
-    if (value > 0.0 && std::isfinite(value)) return;
-    refuse(where, fmt::format("{} = {}: a finite number > 0 ({}) is needed", name, value, unit));
+    if (!(value > 0.0) || !std::isfinite(value))
+      refuse(where, fmt::format("{} = {}: a finite number > 0 ({}) is needed", name, value, unit));
+    if (!of_usable_size(value))
+      refuse(where, fmt::format("{} = {}: {:g} to {:g} ({}) is allowed", name, value, smallest_size,
+                                largest_size, unit));
   };
   positive("duration", time.duration, "s");
   positive("frame_rate", time.frame_rate, "outputs per second");
-  positive("baumgarte", time.baumgarte, "1/s");
+  if (time.baumgarte != 0.0) positive("baumgarte", time.baumgarte, "1/s");
   if (const double outputs = time.duration * time.frame_rate; !(outputs <= max_outputs)) {
     refuse(where, fmt::format("frame_rate = {}: {:.3g} outputs in {} s; at most {:.0e} are allowed",
                               time.frame_rate, outputs, time.duration, max_outputs));
@@ -156,9 +162,9 @@ void validate(const Scene& scene) {
   const Mesh& mesh = scene.mesh;
   if (mesh.triangles.empty()) refuse("[mesh]", "the mesh has no triangles: at least one is needed");
   scene.material.validate("[material]");
-  if (!finite(scene.body_acceleration)) {
-    refuse("[body_force]", fmt::format("acceleration = [{}, {}]: finite numbers (m/s^2) are needed",
-                                       scene.body_acceleration.x, scene.body_acceleration.y));
+  if (!usable(scene.body_acceleration)) {
+    refuse("[body_force]", fmt::format("acceleration = [{}, {}]: {} (m/s^2) are needed",
+                                       scene.body_acceleration.x, scene.body_acceleration.y, usable_numbers));
   }
   for (const Fix& fix : scene.fixes) {
     check_nodes(fix.where, fix.nodes, mesh);
@@ -167,7 +173,7 @@ void validate(const Scene& scene) {
   for (const Move& move : scene.moves) {
     check_nodes(move.where, move.nodes, mesh);
     check_window(move.where, move.window);
-    check_keys(move.where, move.keys, [](const MoveKey& key) { return finite(key.u) && finite(key.v); });
+    check_keys(move.where, move.keys, [](const MoveKey& key) { return usable(key.u) && usable(key.v); });
   }
   for (const Constraint& constraint : scene.constraints) check_constraint(constraint, mesh);
   for (const Traction& traction : scene.tractions) check_traction(traction, mesh);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 
+#include "full_spectrum.hpp"
 #include "lanczos.hpp"
 #include "timeline.hpp"
 
@@ -93,7 +94,15 @@ void Schedule::make_spectrum(const std::vector<Signature>& signatures) {
   if (s.lambda_on) s.lambda_share = material.lambda_ela / (material.lambda_ela + material.mu_ela);
   s.element_bound = model_.element_omega;
   double omega = 0.0;
+  // Every set of constraints must give its eigenvalues, or none counts.
+  bool eigenvalues = scene_.time.integrator == IntegratorKind::euler && s.lambda_on && s.mu_on &&
+                     s.lambda_rate != s.mu_rate && signatures.size() <= spectra_taken;
   const auto include = [&](const ConstraintSolver& constrained) {
+    if (eigenvalues) {
+      const auto found = full_spectrum(model_, constrained);
+      eigenvalues = !found.empty();
+      s.eigenvalues.insert(s.eigenvalues.end(), found.begin(), found.end());
+    }
     const RitzBound bound = largest_frequency(model_, constrained);
     omega = std::max(omega, bound.omega);
     s.lanczos_steps = std::max(s.lanczos_steps, bound.steps);
@@ -104,6 +113,7 @@ void Schedule::make_spectrum(const std::vector<Signature>& signatures) {
     include(ConstraintSolver(model_, {}, {}));
   }
   s.omega_max = std::min(omega, s.element_bound);
+  if (!eigenvalues) s.eigenvalues.clear();
   if (has_columns(scene_)) s.baumgarte = scene_.time.baumgarte;
 }
 

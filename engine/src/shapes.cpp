@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "rheo/error.hpp"
+#include "rheo/limits.hpp"
 
 namespace rheo {
 namespace {
@@ -24,9 +25,14 @@ void check_memory(const std::string& what, double nodes, double triangles) {
 }
 
 void check_length(const std::string& what, double length) {
-  if (length > 0.0 && std::isfinite(length)) return;
-  throw Error(Error::Kind::input,
-              fmt::format("{} = {}: a positive, finite number of metres is needed", what, length));
+  if (!(length > 0.0) || !std::isfinite(length)) {
+    throw Error(Error::Kind::input,
+                fmt::format("{} = {}: a positive, finite number of metres is needed", what, length));
+  }
+  if (!of_usable_size(length)) {
+    throw Error(Error::Kind::input,
+                fmt::format("{} = {}: {:g} to {:g} m is allowed", what, length, smallest_size, largest_size));
+  }
 }
 
 }  // namespace

@@ -50,6 +50,21 @@ Eigen::Vector3cd mode_roots(double w2, double a, double p, double q) {
   return Eigen::EigenSolver<Eigen::Matrix3d>(companion, false).eigenvalues() * scale;
 }
 
+// Largest step that keeps all of `values` stable, whatever rounding did to them.
+double step_of_eigenvalues(const std::vector<std::complex<double>>& values, IntegratorKind integrator) {
+  constexpr double rounding = 1e-12;   // of the largest eigenvalue
+  constexpr double unlimiting = 1e-6;  // rigid motion: zeros in Jordan blocks, moved by the rounding's root
+  double largest = 0.0;
+  for (const std::complex<double> s : values) largest = std::max(largest, std::abs(s));
+  double step = infinite;
+  for (const std::complex<double> s : values) {
+    if (std::abs(s) < unlimiting * largest) continue;
+    const double damped = std::min(s.real() + rounding * largest, 0.0);
+    step = std::min(step, stable_step_of({damped, s.imag()}, integrator));
+  }
+  return step;
+}
+
 }  // namespace
 
 double stable_step_of(std::complex<double> s, IntegratorKind integrator) {
@@ -72,9 +87,6 @@ double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
   // Deformations that leave a residual force without force decay by its own rate alone.
   if (p > 0.0) include(-p);
   if (q > 0.0) include(-q);
-  // The double pole of a constraint: at the very edge it grows linearly, hence strictly inside.
-  if (spectrum.baumgarte > 0.0) include(-spectrum.baumgarte * (1.0 + 1e-6));
-
   if (spectrum.omega_max > 0.0) {
     const double fastest = std::max({p, q, spectrum.omega_max});
     const double damping = std::max(p, q);
@@ -106,7 +118,14 @@ double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
     }
   }
   // Between the samples the limit moves by less than this (checked against exact spectra in the tests).
-  return 0.998 * step;
+  step *= 0.998;
+  // Both are safe.
+  if (!spectrum.eigenvalues.empty())
+    step = std::max(step, 0.998 * step_of_eigenvalues(spectrum.eigenvalues, integrator));
+  // The double pole of a constraint: at the very edge it grows linearly, hence strictly inside.
+  if (spectrum.baumgarte > 0.0)
+    step = std::min(step, 0.998 * stable_step_of(-spectrum.baumgarte * (1.0 + 1e-6), integrator));
+  return step;
 }
 
 }  // namespace rheo

@@ -59,10 +59,21 @@ TEST(Material, NamesTheParameterThatIsOutOfRange) {
   }
 }
 
-TEST(Material, RefusesARateThatIsNoFiniteNumber) {
-  Material material = paper();
-  material.mu_vis = 1e-320;
-  EXPECT_THAT(error_of([&] { material.validate(); }), HasSubstr("mu_vis"));
+// Squares and products of such numbers are no numbers of a double any more.
+TEST(Material, RefusesSizesThatCannotBeComputedWith) {
+  for (double Material::*member : {&Material::lambda_ela, &Material::mu_ela, &Material::lambda_vis,
+                                   &Material::mu_vis, &Material::density}) {
+    for (const double bad : {1e-320, 0.99e-30, 1.01e30, 1e300}) {
+      Material material = paper();
+      material.*member = bad;
+      EXPECT_THAT(error_of([&] { material.validate(); }), HasSubstr("1e-30 to 1e+30 is allowed"));
+    }
+    for (const double good : {1e-30, 1e30}) {
+      Material material = paper();
+      material.*member = good;
+      EXPECT_NO_THROW(material.validate());
+    }
+  }
 }
 
 }  // namespace

@@ -89,7 +89,10 @@ TEST(Scene, EveryRefusalNamesItsPlaceAndValue) {
       {"[time] step = -1:", "\"auto\"", [](Scene& s) { s.time.step = -1.0; }},
       {"[time] step = nan:", "\"auto\"", [&](Scene& s) { s.time.step = nan; }},
       {"[time] step = 1e-200:", "steps", [](Scene& s) { s.time.step = 1e-200; }},
-      {"[time] baumgarte = 0:", "(1/s)", [](Scene& s) { s.time.baumgarte = 0.0; }},
+      {"[time] baumgarte = -1:", "(1/s)", [](Scene& s) { s.time.baumgarte = -1.0; }},
+      {"[time] baumgarte = 1e+31:", "1e-30 to 1e+30", [](Scene& s) { s.time.baumgarte = 1e31; }},
+      {"traction:", "at most 1e+30", [](Scene& s) { s.tractions[0].keys[0].p.x = 1e200; }},
+      {"[body_force] acceleration", "at most 1e+30", [](Scene& s) { s.body_acceleration.y = -1e40; }},
       {"[render] size = [100000, 100000]:", "16 to 16384",
        [](Scene& s) {
          s.picture.size = {100000, 100000};

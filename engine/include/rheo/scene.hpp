@@ -103,7 +103,7 @@ struct TimeSettings {
   IntegratorKind integrator = IntegratorKind::rk4;
   double step = 0.0;         // upper bound [s]; 0: a quarter of the stable limit, exponential: none
   double tolerance = 1e-10;  // exponential: relative error of a run
-  double baumgarte = 20.0;   // omega [1/s]
+  double baumgarte = 20.0;   // omega [1/s]; 0: no stabilisation, constraints hold to the rounding of A^T v
   ConstraintMethod constraints = ConstraintMethod::automatic;
   std::string where;  // for messages about the step: "beam.toml:31: [time]"
 };

@@ -16,7 +16,7 @@
 #pragma once
 
 #include <complex>
-#include <string>
+#include <vector>
 
 #include "rheo/scene.hpp"
 
@@ -32,6 +32,10 @@ struct Spectrum {
   bool mu_on = false;
   double baumgarte = 0.0;  // omega; 0 where no constraint needs it
   int lanczos_steps = 0;
+  // Of the full operator, under every set of constraints: for Euler, whose limit hangs on the damping of
+  // single modes, where the branches relax at different rates and the scene is small. Else empty, and the
+  // limit a safe bound.
+  std::vector<std::complex<double>> eigenvalues;
 };
 
 // Largest h with |R(h s)| <= 1 for every s that `spectrum` allows; 0 where no step is stable (Euler without

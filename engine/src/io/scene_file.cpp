@@ -15,6 +15,7 @@
 #include "io/toml_tree.hpp"
 #include "rheo/error.hpp"
 #include "rheo/io/mesh_file.hpp"
+#include "rheo/limits.hpp"
 #include "rheo/shapes.hpp"
 
 namespace rheo {
@@ -91,6 +92,10 @@ class SceneReader {
     if (source != "points") refuse_other_keys(mesh, {"triangles"}, "points");
     if (source == "points") read_points(mesh);
     scene_.mesh.thickness = mesh.number("thickness", positive_length, 1.0);
+    if (!of_usable_size(scene_.mesh.thickness)) {
+      mesh.refuse("thickness", *mesh.find("thickness"),
+                  fmt::format("{:g} to {:g} m is allowed", smallest_size, largest_size));
+    }
   }
 
   // Keys that mean nothing beside the chosen ones.
@@ -238,7 +243,7 @@ class SceneReader {
       t.step = step->number;
     }
     t.where = time.where();
-    t.baumgarte = time.number("baumgarte", {.low = 0.0, .low_allowed = false, .unit = "1/s"}, t.baumgarte);
+    t.baumgarte = time.number("baumgarte", {.low = 0.0, .unit = "1/s"}, t.baumgarte);
     t.constraints = static_cast<ConstraintMethod>(time.choice("constraints", methods, 0));
     time.locate([&] { validate(t); });
   }
