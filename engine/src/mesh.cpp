@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "mesh_edges.hpp"
 #include "rheo/error.hpp"
@@ -263,6 +264,28 @@ double signed_area(const Mesh& mesh, int triangle) {
   const Vec2 b = mesh.points[static_cast<std::size_t>(t[1])];
   const Vec2 c = mesh.points[static_cast<std::size_t>(t[2])];
   return 0.5 * ((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y));
+}
+
+int piece_count(const Mesh& mesh) {
+  // Union by the smaller number, with paths halved.
+  std::vector<int> parent(mesh.points.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int node) {
+    while (parent[node] != node) {
+      parent[node] = parent[parent[node]];
+      node = parent[node];
+    }
+    return node;
+  };
+  for (const Triangle& t : mesh.triangles) {
+    for (const int k : {1, 2}) {
+      const auto [low, high] = std::minmax({root(t[0]), root(t[k])});
+      parent[high] = low;
+    }
+  }
+  int pieces = 0;
+  for (int node = 0; node < mesh.node_count(); ++node) pieces += parent[node] == node ? 1 : 0;
+  return pieces;
 }
 
 std::vector<int> nodes_of(const std::vector<Edge>& edges) {

@@ -269,6 +269,26 @@ TEST_F(Results, TheReadersNotesAreToldAndKept) {
   EXPECT_THAT(json.at("notes").dump(), HasSubstr("clockwise"));
 }
 
+TEST_F(Results, NotesSayWhatNeverActs) {
+  write("beam.toml", small_beam() +
+                         "[[traction]]\nedges = \"top\"\nvector = [0.0, 1.0]\nfrom = 100.0\n"
+                         "[[move]]\nnodes = [4]\nkeys = [[50.0, 0.0, 0.0], [51.0, 1.0, 0.0]]\n");
+  const Finished finished = rheo({"run", "beam.toml"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_THAT(finished.out, AllOf(HasSubstr("[[traction]] never acts: from = 100 s"),
+                                  HasSubstr("[[move]] is constant while it acts")));
+}
+
+TEST_F(Results, NotesSayThatAMeshIsInPieces) {
+  write("beam.toml",
+        small_beam_with("shape = \"rectangle\"\nsize = [1.0, 0.25]\nnodes = [5, 2]",
+                        "points = [[0, 0], [1, 0], [0, 1], [2, 0], [3, 0], [2, 1]]\n"
+                        "triangles = [[0, 1, 2], [3, 4, 5]]\n[edges]\nleft = [[0, 2]]\nright = [[3, 4]]"));
+  const Finished finished = rheo({"run", "beam.toml"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_THAT(finished.out, HasSubstr("note: the mesh is 2 pieces that share no node"));
+}
+
 TEST_F(Results, NoPartStaysBehind) {
   run("r", {"--vtu"});
   for (const std::string& name : files()) EXPECT_THAT(name, Not(HasSubstr(".part")));

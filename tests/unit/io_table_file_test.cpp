@@ -39,6 +39,7 @@ TEST(TableFile, NamesTheLineAndWhatIsNeeded) {
   EXPECT_THAT(refusal("t,x,y\nt,x,y\n"),
               AllOf(StartsWith("a.csv:2: "), HasSubstr("\"t\" is no finite number")));
   EXPECT_THAT(refusal("1,,3\n"), HasSubstr("\"\" is no finite number"));
+  EXPECT_THAT(refusal("O.0,1,2\n1,2,3\n"), AllOf(StartsWith("a.csv:1: "), HasSubstr("\"O.0\" is no finite")));
   for (const char* bad : {"nan", "inf", "1e999", "0x10", "1 2", "--1", "+-1", "1,5e"}) {
     EXPECT_THAT(refusal(std::string("1,2,") + bad), StartsWith("a.csv:1: ")) << bad;
   }

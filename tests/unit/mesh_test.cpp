@@ -31,6 +31,19 @@ std::string refusal(Mesh mesh) {
   return error_of([&] { prepare(mesh); });
 }
 
+TEST(Mesh, PiecesShareNoNode) {
+  Mesh mesh = square();
+  EXPECT_EQ(piece_count(mesh), 1);
+  for (const double shift : {2.0, 4.0}) {
+    const int first = mesh.node_count();
+    for (int i = 0; i < 4; ++i) mesh.points.push_back({mesh.points[i].x + shift, mesh.points[i].y});
+    mesh.triangles.push_back({first + 3, first + 2, first});
+    mesh.triangles.push_back({first + 2, first + 1, first});
+  }
+  EXPECT_EQ(piece_count(mesh), 3);
+  EXPECT_EQ(piece_count(rectangle({1, 1}, 30, 40)), 1);
+}
+
 TEST(Mesh, ClockwiseTrianglesAreTurnedRoundAndCounted) {
   Mesh mesh = square();
   mesh.triangles = {{0, 2, 1}, {0, 2, 3}};
@@ -131,7 +144,8 @@ TEST(Mesh, RefusesNodesWithoutATriangleAndNonFiniteCoordinates) {
   mesh.points[3].y = std::nan("");
   EXPECT_THAT(refusal(mesh), HasSubstr("node 3 at (0, nan)"));
   mesh.points[3].y = 1e200;  // its square is not finite
-  EXPECT_THAT(refusal(mesh), HasSubstr("triangle 1"));
+  EXPECT_THAT(refusal(mesh), HasSubstr("node 3 at (0, 1e+200): at most 1e+30 m"));
+  EXPECT_THAT(refusal(square(1e-31)), HasSubstr("triangle 0 (0, 1, 2): its longest side has"));
 }
 
 TEST(Mesh, RefusesGroupEdgesThatAreNoEdges) {

@@ -230,6 +230,12 @@ TEST(Msh, CountsThatDoNotFitTheContentsAreRefused) {
   EXPECT_THAT(refusal(bytes_of("ascii22.msh") + "junk"), HasSubstr("junk"));
 }
 
+TEST(Msh, PartitionsAreRefusedByName) {
+  const std::string text = replaced(bytes_of("ascii41.msh"), "$Nodes",
+                                    "$PartitionedEntities\n2\n0\n$EndPartitionedEntities\n$Nodes");
+  EXPECT_THAT(refusal(text), HasSubstr("save it in one piece"));
+}
+
 TEST(Msh, UnknownSectionsArePassedOver) {
   const std::string section = "$Comments\nanything $ at all\n$EndComments\n";
   for (const char* name : {"ascii22.msh", "binary41.msh"}) {

@@ -47,6 +47,9 @@ int prepare(Mesh& mesh, const std::string& where = {});
 // Half the cross product of two sides; positive when counter-clockwise. [m^2]
 double signed_area(const Mesh& mesh, int triangle);
 
+// How many pieces the triangles make that share no node.
+int piece_count(const Mesh& mesh);
+
 // Node numbers of some edges, each once, in rising order.
 std::vector<int> nodes_of(const std::vector<Edge>& edges);
 

@@ -28,6 +28,9 @@ class MshReader {
       if (line[0] != '$') in_.refuse("{} where a section ($Nodes, say) is expected", in_quotes(line, 30));
       const std::string section(line.substr(1));
       in_.pass_line_end();
+      if (section == "PartitionedEntities") {
+        in_.refuse("the mesh is in partitions, whose physical groups are not read: save it in one piece");
+      }
       if (section == "PhysicalNames") {
         read_names();
       } else if (section == "Entities" && version_4_) {

@@ -15,7 +15,6 @@
 #include "io/toml_tree.hpp"
 #include "rheo/error.hpp"
 #include "rheo/io/mesh_file.hpp"
-#include "rheo/limits.hpp"
 #include "rheo/shapes.hpp"
 
 namespace rheo {
@@ -92,10 +91,6 @@ class SceneReader {
     if (source != "points") refuse_other_keys(mesh, {"triangles"}, "points");
     if (source == "points") read_points(mesh);
     scene_.mesh.thickness = mesh.number("thickness", positive_length, 1.0);
-    if (!of_usable_size(scene_.mesh.thickness)) {
-      mesh.refuse("thickness", *mesh.find("thickness"),
-                  fmt::format("{:g} to {:g} m is allowed", smallest_size, largest_size));
-    }
   }
 
   // Keys that mean nothing beside the chosen ones.

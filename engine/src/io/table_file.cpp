@@ -62,7 +62,8 @@ NumberTable parse_table(std::string_view text, const std::string& name, std::siz
                               columns == 1 ? "1 number" : fmt::format("{} numbers", columns), form));
     };
     const auto fields = split(line, columns);
-    const bool header = header_allowed && !number_in(fields[0]) &&
+    // A row with one number in it is a mistyped row, not a header.
+    const bool header = header_allowed && std::none_of(fields.begin(), fields.end(), number_in) &&
                         (fields[0].empty() || fields[0][0] == '"' ||
                          std::isalpha(static_cast<unsigned char>(fields[0][0])) != 0);
     header_allowed = false;

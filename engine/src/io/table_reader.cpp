@@ -8,6 +8,7 @@
 
 #include "io/message.hpp"
 #include "rheo/error.hpp"
+#include "rheo/limits.hpp"
 
 namespace rheo {
 
@@ -15,6 +16,16 @@ bool NumberRule::admits(double value) const {
   if (std::isnan(value)) return false;
   if (std::isinf(value) && !(infinite_allowed && value > 0.0)) return false;
   return (low_allowed ? value >= low : value > low) && value <= high;
+}
+
+std::string NumberRule::size_complaint(double value) const {
+  if (std::isinf(value)) return {};
+  if (low == 0.0 && !low_allowed && !of_usable_size(value)) {
+    return fmt::format("{:g} to {:g} is allowed ({}){}", smallest_size, largest_size, unit,
+                       infinite_allowed ? ", and inf" : "");
+  }
+  if (!within_size(value)) return fmt::format("numbers of at most {:g} in size are allowed", largest_size);
+  return {};
 }
 
 std::string NumberRule::allowed() const {
@@ -71,6 +82,7 @@ double TableReader::number(std::string_view key, const NumberRule& rule, double 
   const TomlValue* value = find(key);
   if (value == nullptr) return otherwise;
   if (!value->is_number() || !rule.admits(value->number)) refuse(key, *value, rule.allowed() + " is needed");
+  check_size(key, *value, rule, value->number);
   return value->number;
 }
 
@@ -109,6 +121,7 @@ Vec2 TableReader::pair(std::string_view key, const TomlValue& value, const Numbe
                       return item.is_number() && rule.admits(item.number);
                     });
   if (!fits) refuse(key, value, fmt::format("[x, y], each {}, is needed", rule.allowed()));
+  for (const TomlValue& item : value.items) check_size(key, value, rule, item.number);
   return {value.items[0].number, value.items[1].number};
 }
 
@@ -131,7 +144,10 @@ NumberTable TableReader::rows(std::string_view key, const TomlValue& value, std:
     }
     std::vector<double> row;
     row.reserve(columns);
-    for (const TomlValue& v : item.items) row.push_back(v.number);
+    for (const TomlValue& v : item.items) {
+      check_size(fmt::format("{}[{}]", key, table.rows.size()), item, {}, v.number);
+      row.push_back(v.number);
+    }
     table.rows.push_back(std::move(row));
     table.lines.push_back(item.line);
   }
@@ -169,6 +185,12 @@ int TableReader::integer(std::string_view key, const TomlValue& value, int low, 
     refuse(key, value, fmt::format("a {} from {} to {} is needed", what, low, high));
   }
   return static_cast<int>(value.integer);
+}
+
+void TableReader::check_size(std::string_view key, const TomlValue& value, const NumberRule& rule,
+                             double number) const {
+  if (const std::string complaint = rule.size_complaint(number); !complaint.empty())
+    refuse(key, value, complaint);
 }
 
 void TableReader::locate(const std::function<void()>& check) const {

@@ -29,6 +29,9 @@ struct NumberRule {
   const char* unit = "";
 
   bool admits(double value) const;
+  // What else is wrong with a value that is admitted: a size that cannot be computed with (limits.hpp).
+  // Empty: nothing.
+  std::string size_complaint(double value) const;
   std::string allowed() const;  // "a finite number > 0 (Pa s)"
 };
 
@@ -80,6 +83,9 @@ class TableReader {
   const std::string& header() const { return header_; }
 
  private:
+  // Refuses a number under `rule` that stands in `value`.
+  void check_size(std::string_view key, const TomlValue& value, const NumberRule& rule, double number) const;
+
   const TomlValue& table_;
   std::string file_;
   std::string header_;

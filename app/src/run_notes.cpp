@@ -1,0 +1,59 @@
+#include "run_notes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "rheo/simulation.hpp"
+
+namespace app {
+namespace {
+
+// `item` is what the scene's text calls it, with its place in the file.
+void note_window(const std::string& item, const rheo::Window& window, double duration,
+                 std::vector<std::string>& notes) {
+  if (window.from >= duration) {
+    notes.push_back(fmt::format("{} never acts: from = {:g} s is not before the duration, {:g} s", item,
+                                window.from, duration));
+  }
+}
+
+// Keys of which the run sees only one end.
+template <typename Key>
+void note_keys(const std::string& item, const std::vector<Key>& keys, const rheo::Window& window,
+               double duration, std::vector<std::string>& notes) {
+  const double end = std::min(window.until, duration);
+  if (keys.size() < 2 || window.from >= duration) return;
+  if (keys.back().t <= window.from || keys.front().t >= end) {
+    notes.push_back(
+        fmt::format("{} is constant while it acts, from {:g} s to {:g} s: its keys lie from {:g} s to {:g} s",
+                    item, window.from, end, keys.front().t, keys.back().t));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> run_notes(const rheo::Scene& scene) {
+  std::vector<std::string> notes = scene.notes;
+  const rheo::TimeSettings& time = scene.time;
+  if (const int pieces = rheo::piece_count(scene.mesh); pieces > 1)
+    notes.push_back(
+        fmt::format("the mesh is {} pieces that share no node: they do not feel each other", pieces));
+  for (const rheo::Fix& fix : scene.fixes) note_window(fix.where, fix.window, time.duration, notes);
+  for (const rheo::Move& move : scene.moves) {
+    note_window(move.where, move.window, time.duration, notes);
+    note_keys(move.where, move.keys, move.window, time.duration, notes);
+  }
+  for (const rheo::Traction& traction : scene.tractions) {
+    note_window(traction.where, traction.window, time.duration, notes);
+    note_keys(traction.where, traction.keys, traction.window, time.duration, notes);
+  }
+  const double last = rheo::output_time(time, rheo::output_count(time) - 1);
+  // A product and a quotient of the two settings round by some 1e-16.
+  if (time.duration - last > 1e-9 * time.duration)
+    notes.push_back(fmt::format("outputs end at t = {:.6g} s, state.csv is at the duration {:.6g} s", last,
+                                time.duration));
+  return notes;
+}
+
+}  // namespace app
