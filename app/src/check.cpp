@@ -126,27 +126,36 @@ enum class Verdict {
   no_step    // automatic, and no step is stable
 };
 
+struct EulerLimit {
+  double step = 0.0;
+  bool bound = false;
+};
+
 // As a run with Euler would find it: small scenes have all their eigenvalues taken for it.
-double euler_limit_of(const rheo::Scene& scene, const rheo::Simulation& simulation) {
+EulerLimit euler_limit_of(const rheo::Scene& scene, const rheo::Simulation& simulation) {
   constexpr int small = 1000;  // nodes
-  if (scene.mesh.node_count() > small)
-    return rheo::stable_step(simulation.spectrum(), rheo::IntegratorKind::euler);
+  const auto of = [](const rheo::Spectrum& spectrum) {
+    return EulerLimit{rheo::stable_step(spectrum, rheo::IntegratorKind::euler),
+                      rheo::stable_step_is_bound(spectrum, rheo::IntegratorKind::euler)};
+  };
+  if (scene.mesh.node_count() > small) return of(simulation.spectrum());
   rheo::Scene euler = scene;
   euler.time.integrator = rheo::IntegratorKind::euler;
   euler.time.step = scene.time.duration;
   rheo::SimulationOptions any_step;
   any_step.allow_unstable = true;
-  return rheo::Simulation(std::move(euler), any_step).stable_step();
+  return of(rheo::Simulation(std::move(euler), any_step).spectrum());
 }
 
-void print_steps(const rheo::Simulation& simulation, rheo::IntegratorKind integrator, double euler_limit,
+void print_steps(const rheo::Simulation& simulation, rheo::IntegratorKind integrator, EulerLimit euler_limit,
                  Verdict verdict) {
   const rheo::Spectrum& spectrum = simulation.spectrum();
   const rheo::TimeSettings& time = simulation.scene().time;
   row("omega_max", "{:.6g} rad/s ({} Lanczos steps); by single elements {:.6g} rad/s", spectrum.omega_max,
       spectrum.lanczos_steps, spectrum.element_bound);
   row("stable rk4", "{}", stable_text(rheo::stable_step(spectrum, rheo::IntegratorKind::rk4)));
-  row("stable euler", "{}", stable_text(euler_limit));
+  row("stable euler", "{}{}", stable_text(euler_limit.step),
+      euler_limit.bound && euler_limit.step > 0.0 ? " at least (a safe bound)" : "");
   row("integrator", "{}", name_of(integrator));
   row("kernel", "{}", simulation.kernel());
   if (integrator == rheo::IntegratorKind::exponential) row("tolerance", "{:g}", time.tolerance);
@@ -219,7 +228,7 @@ void print_cost(rheo::Simulation& simulation, Verdict verdict) {
   else if (cost.divergence)
     row("cost", "no forecast: the run diverges, noticed at t = {:.4g} s", cost.divergence->t);
   else if (cost.steps == 0)
-    row("cost", "no forecast: the run is a single step");
+    row("cost", "no forecast: the run takes fewer than two steps");
   else
     row("cost", "forecast {:.3g} s for run, from {} timed steps of {:.3g} s each", seconds, cost.steps,
         cost.seconds_per_step);
@@ -242,9 +251,9 @@ void check_scene(const Options& options) {
   rheo::Scene shown = scene;
   if (time.step == 0.0) shown.time.integrator = rheo::IntegratorKind::rk4;
   std::optional<rheo::Simulation> simulation(std::in_place, std::move(shown), any_step);
-  const double euler_limit = euler_limit_of(scene, *simulation);
+  const EulerLimit euler_limit = euler_limit_of(scene, *simulation);
   const double limit =
-      time.integrator == rheo::IntegratorKind::euler ? euler_limit : simulation->stable_step();
+      time.integrator == rheo::IntegratorKind::euler ? euler_limit.step : simulation->stable_step();
   Verdict verdict = Verdict::accepted;
   if (time.step == 0.0 && limit == 0.0) verdict = Verdict::no_step;
   // Rounding as the engine allows it.

@@ -105,8 +105,8 @@ void add_output_options(CLI::App& command, Texts& texts) {
   command.add_flag("--quiet", texts.quiet, "print nothing unless something fails")->group(group);
   command
       .add_option("--threads", texts.threads,
-                  fmt::format("threads that encode frames, 1 to {}; default: as many as processors,\n"
-                              "at most 4. Results never depend on it",
+                  fmt::format("threads that compute and that encode frames, 1 to {}; default: as many\n"
+                              "processors as pay. Results never depend on it",
                               most_threads))
       ->type_name("N")
       ->group(group);
@@ -254,7 +254,10 @@ Options read_values(const Texts& texts, const CLI::App& command) {
   options.force = texts.force;
   options.quiet = texts.quiet;
   options.threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 4);
-  if (given("--threads")) options.threads = whole_number("--threads", texts.threads, 1, most_threads);
+  if (given("--threads")) {
+    options.threads = whole_number("--threads", texts.threads, 1, most_threads);
+    options.simulation.threads = options.threads;
+  }
 
   if (given("--size")) options.size = picture_size("--size", texts.size);
   if (given("--color")) options.color = color_by("--color", texts.color);

@@ -29,13 +29,14 @@ Json settings_of(const Options& options, const rheo::Simulation& simulation, con
   json["kernel"] = simulation.kernel();
   json["step_asked"] = time.step > 0.0 ? Json(time.step) : Json("auto");
   json["step_bound"] = number(simulation.step_bound());
-  json["largest_step"] = number(report.largest_step);
+  json["largest_step"] = number(simulation.largest_step());
   json["stable_step"] = number(simulation.stable_step());
   json["tolerance"] =
       time.integrator == rheo::IntegratorKind::exponential ? Json(time.tolerance) : Json(nullptr);
   json["duration"] = time.duration;
   json["frame_rate"] = time.frame_rate;
-  json["threads"] = options.threads;
+  json["threads"] = simulation.threads();
+  json["encoder_threads"] = options.threads;
   json["renderer"] = report.renderer.empty() ? Json(nullptr) : Json(report.renderer);
   return json;
 }
@@ -74,7 +75,9 @@ Json counters_of(const rheo::Counters& counters) {
           {"force_evaluations", counters.force_evaluations},
           {"mass_solves", counters.mass_solves},
           {"constraint_solves", counters.constraint_solves},
-          {"projections", counters.projections}};
+          {"projections", counters.projections},
+          {"energy_samples", counters.energy_samples},
+          {"steps_at_rest", counters.steps_at_rest}};
 }
 
 Json seconds_of(const Seconds& seconds) {

@@ -39,7 +39,6 @@ struct RunReport {
   std::string scene_text;
   std::string renderer;  // empty: nothing was drawn
   std::int64_t outputs = 0;
-  double largest_step = 0.0;  // [s]
   std::vector<Fingerprint> read_files;
   std::vector<std::string> files;
   std::vector<std::string> notes;

@@ -44,8 +44,7 @@ struct Sink {
 };
 
 struct Passed {
-  std::int64_t outputs = 0;   // completed
-  double largest_step = 0.0;  // [s], the largest mean step between two outputs
+  std::int64_t outputs = 0;  // completed
   std::optional<rheo::Divergence> divergence;
 };
 
@@ -57,12 +56,7 @@ Passed simulate(rheo::Simulation& simulation, const std::vector<Sink>& sinks, Pr
   Passed passed;
   const auto advance = [&](double t) {
     const Timed timed(seconds.simulate);
-    const double start = simulation.time();
-    const std::int64_t steps = simulation.counters().steps;
-    auto divergence = simulation.advance(t);
-    if (const auto taken = static_cast<double>(simulation.counters().steps - steps); taken > 0.0)
-      passed.largest_step = std::max(passed.largest_step, (simulation.time() - start) / taken);
-    return divergence;
+    return simulation.advance(t);
   };
   progress.begin("simulating", count);
   for (std::int64_t k = 0; k < count; ++k) {
@@ -127,7 +121,11 @@ void list_files(const OutputFolder& folder, Progress& progress) {
 
 void summarise(const rheo::Counters& counters, const Seconds& seconds, std::int64_t frames,
                Progress& progress) {
-  progress.line(fmt::format("{} steps, {} force evaluations", counters.steps, counters.force_evaluations));
+  progress.line(fmt::format("{} steps{}, {} force evaluations", counters.steps,
+                            counters.steps_at_rest > 0
+                                ? fmt::format(" ({} more were not needed: at rest)", counters.steps_at_rest)
+                                : std::string(),
+                            counters.force_evaluations));
   std::string line = fmt::format("seconds: read {:.3f}, build {:.3f}, simulate {:.3f}, write {:.3f}",
                                  seconds.read, seconds.build, seconds.simulate, seconds.write);
   if (frames > 0)
@@ -195,7 +193,6 @@ void run_scene(const Options& options) {
 
   folder.made("run.json");
   report.outputs = passed.outputs;
-  report.largest_step = passed.largest_step;
   report.files = folder.all_made();
   report.warnings = watch.warnings();
   report.divergence = passed.divergence;

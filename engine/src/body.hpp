@@ -55,6 +55,7 @@ class Body : public LinearOperator {
   std::size_t size() const override { return state_.size(); }
 
   virtual std::string_view kernel() const = 0;
+  virtual int threads() const { return 1; }
 
   // From and to the mesh's order.
   virtual void load(std::span<const double> y) = 0;

@@ -10,6 +10,7 @@
 #include "assembled_body.hpp"
 #include "energy_book.hpp"
 #include "kernels/edge_body.hpp"
+#include "kernels/flush_denormals.hpp"
 #include "model.hpp"
 #include "rheo/error.hpp"
 #include "schedule.hpp"
@@ -22,7 +23,9 @@ constexpr double auto_fraction = 0.25;  // of the stable limit
 constexpr double most_steps = 1e15;     // counted exactly by a double, and beyond any patience
 constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t unasked_stride = 16;  // steps between looks at the energy where nobody asks for it
-constexpr double violation_allowed = 0.01;   // of a constraint's coefficients times the largest |u|
+// Of all energy that ever went in: what is left below it cannot move the body by a rounding of its course.
+constexpr double energy_at_rest = 1e-32;
+constexpr double violation_allowed = 0.01;  // of a constraint's coefficients times the largest |u|
 
 const Scene& validated(const Scene& scene) {
   validate(scene);
@@ -53,7 +56,7 @@ struct Simulation::Impl {
         model(validated(scene).mesh, scene.material, assembly_for(scene, options.kernel)),
         schedule(scene, model),
         spectrum(schedule.spectrum()),
-        body(make_body()),
+        body(make_body(options.threads)),
         integrator(make_integrator(scene.time.integrator, body->size(), exponential_settings())),
         stride(options.energies ? 1 : unasked_stride),
         y(model.layout.size(), 0.0),
@@ -118,10 +121,12 @@ struct Simulation::Impl {
           name));
     }
     if (given && settings.step > limit * (1.0 + 1e-12) && !options.allow_unstable) {
-      refuse_step(
-          fmt::format("step = {:g} s: beyond the largest stable step of {}, {:.6g} s: take a smaller one or "
-                      "\"auto\", or allow it (--allow-unstable)",
-                      settings.step, name, limit));
+      refuse_step(fmt::format(
+          "step = {:g} s: beyond the largest {} of {}, {:.6g} s: take a smaller one or "
+          "\"auto\", or allow it (--allow-unstable)",
+          settings.step,
+          stable_step_is_bound(spectrum, settings.integrator) ? "step that is surely stable" : "stable step",
+          name, limit));
     }
     // The exponential integrator goes from event to event and output to output.
     bound = given ? settings.step : exponential() ? limit : auto_fraction * limit;
@@ -134,8 +139,8 @@ struct Simulation::Impl {
     }
   }
 
-  std::unique_ptr<Body> make_body() const {
-    if (model.edges) return std::make_unique<EdgeBody>(model, *model.edges);
+  std::unique_ptr<Body> make_body(int threads) const {
+    if (model.edges) return std::make_unique<EdgeBody>(model, *model.edges, threads);
     return std::make_unique<AssembledBody>(model, scene.time.baumgarte);
   }
 
@@ -243,6 +248,7 @@ struct Simulation::Impl {
   void sample_now() {
     if (sampled) return;
     sample = body->sample(time);
+    ++body->counters().energy_samples;
     sample_time = time;
     sampled = true;
   }
@@ -254,10 +260,40 @@ struct Simulation::Impl {
     reaction_known = true;
   }
 
+  // Nothing acts, nothing is moved, and what is left of the energy is nothing beside what went in.
+  bool at_rest() {
+    if (interval.moving || interval.force_rate.size() > 0 || !interval.solver->columns().empty())
+      return false;
+    if (!(interval.force.array() == 0.0).all()) return false;
+    sample_now();
+    return sample.kinetic + sample.stored <= energy_at_rest * book.turnover();
+  }
+
+  // At rest, v = 0, residual forces decay by their own rates: w' = - rate w, exactly. (Those of a rigid
+  // motion hold no energy and may still be large.)
+  void pass_at_rest(double end) {
+    const auto decay = [&](std::size_t offset, double rate) {
+      VectorMap(y.data() + offset, static_cast<Eigen::Index>(model.layout.part)) *=
+          std::exp(-rate * (end - time));
+    };
+    fetch();
+    if (model.layout.lambda) decay(model.layout.w_lambda(), model.material.lambda_rate());
+    if (model.layout.mu) decay(model.layout.w_mu(), model.material.mu_rate());
+    body->load(y);
+    body->counters().steps_at_rest += steps_in(end - time, bound);
+    time = end;
+    changed();
+  }
+
   std::optional<Divergence> run_segment(double end) {
     const double start = time;
+    if (at_rest()) {
+      pass_at_rest(end);
+      return std::nullopt;
+    }
     const std::int64_t n = steps_in(end - start, bound);
     const double h = (end - start) / static_cast<double>(n);
+    largest_step = std::max(largest_step, h);
     sample_now();
     for (std::int64_t k = 0; k < n; ++k) {
       integrator->step(*body, time, h, body->state(), body->known_rate());
@@ -314,6 +350,7 @@ struct Simulation::Impl {
 
   std::optional<Divergence> advance(double t) {
     assert(t >= time || same_time(t, time));
+    const FlushDenormals flush;
     while (!diverged && time < t && !same_time(time, t)) {
       const double event = schedule.end(index);
       const bool passes = event <= t || same_time(event, t);
@@ -334,6 +371,7 @@ struct Simulation::Impl {
 
   double limit = 0.0;
   double bound = 0.0;
+  double largest_step = 0.0;
   double time = 0.0;
   std::size_t index = 0;
   Interval interval;
@@ -367,6 +405,9 @@ double Simulation::stable_step() const {
 }
 double Simulation::step_bound() const {
   return impl_->bound;
+}
+double Simulation::largest_step() const {
+  return impl_->largest_step;
 }
 double Simulation::time() const {
   return impl_->time;
@@ -427,6 +468,9 @@ Energies Simulation::energies() const {
 
 std::string_view Simulation::kernel() const {
   return impl_->body->kernel();
+}
+int Simulation::threads() const {
+  return impl_->body->threads();
 }
 
 std::span<const double> Simulation::reaction() {

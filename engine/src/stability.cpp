@@ -77,6 +77,11 @@ double stable_step_of(std::complex<double> s, IntegratorKind integrator) {
   return radius / size;
 }
 
+bool stable_step_is_bound(const Spectrum& spectrum, IntegratorKind integrator) {
+  return integrator == IntegratorKind::euler && spectrum.eigenvalues.empty() && spectrum.lambda_on &&
+         spectrum.mu_on && spectrum.lambda_rate != spectrum.mu_rate;
+}
+
 double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
   if (integrator == IntegratorKind::exponential) return infinite;
   double step = infinite;

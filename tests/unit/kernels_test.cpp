@@ -120,7 +120,7 @@ TEST_P(Kernels, AgreeWithTheAssembledForm) {
 
     AssembledBody assembled(model, 0.0);
     const EdgeForce force(std::make_shared<EdgeForm>(scene.mesh), GetParam());
-    EdgeBody edges(model, force);
+    EdgeBody edges(model, force, 1);
     const Outcome a = outcome(assembled, interval, base, y, 0.7);
     const Outcome b = outcome(edges, interval, base, y, 0.7);
     for (std::size_t begin = 0; begin < y.size(); begin += model.layout.part) {
@@ -187,6 +187,47 @@ TEST(EdgeBody, SweepsThatFollowEachOtherGiveTheSameStep) {
   EXPECT_NEAR(a.stored, b.stored, 1e-11 * a.stored);
   EXPECT_NEAR(a.dissipated, b.dissipated, 1e-11 * a.dissipated);
   EXPECT_NEAR(a.work, b.work, 1e-11 * a.work);
+}
+
+// Bit for bit, with any number of threads, also more than this machine has processors.
+TEST(EdgeBody, ThreadsDoNotChangeTheResult) {
+  Scene scene;
+  scene.mesh = rectangle({3.0, 1.0}, 181, 41, Diagonal::alternating);
+  scene.material = {7, 5, 4, 2, 0.2, Mass::lumped};
+  const auto& groups = scene.mesh.edge_groups;
+  scene.fixes.push_back({nodes_of(groups.at("left")), Axis::both, {}, ""});
+  scene.moves.push_back({nodes_of(groups.at("right")),
+                         Axis::both,
+                         {},
+                         {{0, {0, 0}, {}}, {1, {0.1, 0.05}, {}}},
+                         Profile::smooth,
+                         ""});
+  scene.tractions.push_back({groups.at("top"), {{0, {0, -1}}, {1, {2, 0}}}, {}, ""});
+  scene.time.duration = 1.0;
+  ASSERT_GE(EdgeForm(scene.mesh).blocks.size(), 24u);
+  Simulation one(scene, {.threads = 1});
+  EXPECT_EQ(one.threads(), 1);
+  ASSERT_FALSE(one.advance(0.05));
+  for (int threads : {2, 3, 4, 5}) {
+    Simulation several(scene, {.threads = threads});
+    EXPECT_EQ(several.threads(), threads);
+    ASSERT_FALSE(several.advance(0.05));
+    for (std::size_t i = 0; i < one.u().size(); ++i) {
+      ASSERT_EQ(one.u()[i], several.u()[i]) << threads;
+      ASSERT_EQ(one.v()[i], several.v()[i]) << threads;
+      ASSERT_EQ(one.w_lambda()[i], several.w_lambda()[i]) << threads;
+      ASSERT_EQ(one.w_mu()[i], several.w_mu()[i]) << threads;
+    }
+    EXPECT_EQ(one.energies().stored, several.energies().stored);
+    EXPECT_EQ(one.energies().dissipated, several.energies().dissipated);
+    EXPECT_EQ(one.energies().work, several.energies().work);
+  }
+}
+
+TEST(EdgeBody, SmallMeshesHaveOneThread) {
+  EXPECT_EQ(Simulation(paper_beam(Mass::lumped)).threads(), 1);
+  EXPECT_EQ(Simulation(paper_beam(Mass::lumped), {.threads = 4}).threads(), 1)
+      << "one block cannot be shared";
 }
 
 TEST(Energies, WhereNotAskedForAreNotANumberAndChangeNothing) {

@@ -12,7 +12,8 @@
 // Errors   the constructor: Error::Kind::input (values, contradictory or dependent constraints, a step beyond
 // the stable
 //          limit); advance: a Divergence, never an exception, never a reset
-// Not here files, pictures, threads
+// Threads  inside a step only; one Simulation is used by one thread at a time, several are independent
+// Not here files, pictures
 #pragma once
 
 #include <cstdint>
@@ -56,6 +57,8 @@ struct Counters {
   std::int64_t mass_solves = 0;        // sparse solves with the consistent mass
   std::int64_t constraint_solves = 0;  // solves for Lagrange multipliers
   std::int64_t projections = 0;        // velocity jumps where constraints begin
+  std::int64_t energy_samples = 0;     // looks at the energies: each costs about one evaluation
+  std::int64_t steps_at_rest = 0;      // not taken, because nothing moved and nothing acted
 };
 
 // Ways to the same rheological force.
@@ -69,6 +72,7 @@ struct SimulationOptions {
   bool allow_unstable = false;  // run a step beyond the stable limit instead of refusing it
   Kernel kernel = Kernel::automatic;
   bool energies = true;  // without: dissipated and work are not known (NaN), and a step costs less
+  int threads = 0;       // of the edge kernel; 0: as many as pay. The result does not depend on it.
 };
 
 class Simulation {
@@ -86,11 +90,16 @@ class Simulation {
   const Spectrum& spectrum() const;
   double stable_step() const;
   double step_bound() const;
-  // Steps from 0 to the scene's duration with outputs at its frame rate. Costs nothing: counted, not run.
+  // The largest taken so far; 0 before the first.
+  double largest_step() const;
+  // Steps from 0 to the scene's duration with outputs at its frame rate. Costs nothing: counted, not run, those at
+  // rest too.
   std::int64_t planned_steps() const;
 
   // The kernel in use: "csr" or "edge".
   std::string_view kernel() const;
+  // How many threads its steps have.
+  int threads() const;
 
   double time() const;
   // Runs to time t >= time(), in equal steps between the events on the way; nullopt when all is well.

@@ -42,6 +42,10 @@ struct Spectrum {
 // damping in some mode), infinite where every step is (exponential: always).
 double stable_step(const Spectrum& spectrum, IntegratorKind integrator);
 
+// Whether that is only a safe bound, the true limit possibly larger: Euler, on scenes too large for their
+// eigenvalues.
+bool stable_step_is_bound(const Spectrum& spectrum, IntegratorKind integrator);
+
 // The same for one eigenvalue s (Re s <= 0), used above and by the tests on exact spectra.
 double stable_step_of(std::complex<double> s, IntegratorKind integrator);
 

@@ -29,10 +29,20 @@ std::vector<std::size_t> block_begins(const EdgeForm& form, const std::vector<It
   return begins;
 }
 
+// Below some thousand nodes a thread's part of a step is too short to share.
+int paying_threads(int nodes) {
+  constexpr int nodes_a_thread = 1500;
+  return std::clamp(nodes / nodes_a_thread, 1, usable_processors());
+}
+
 }  // namespace
 
-EdgeBody::EdgeBody(const Model& model, const EdgeForce& force)
-    : Body(model, 0.0), edge_force_(force), form_(force.form()) {
+EdgeBody::EdgeBody(const Model& model, const EdgeForce& force, int threads)
+    : Body(model, 0.0),
+      edge_force_(force),
+      form_(force.form()),
+      team_(form_.blocks.size(), threads > 0 ? threads : paying_threads(form_.nodes)),
+      sums_(form_.blocks.size()) {
   const auto n = static_cast<std::size_t>(form_.nodes);
   state_.assign(8 * n, 0.0);
   p_rate_.assign(4 * n, 0.0);
@@ -155,34 +165,28 @@ void EdgeBody::fma(double h, std::span<const double> x, std::span<const double> 
   chain({&sweep, 1});
 }
 
-// Sweep k takes block b as soon as sweep k - 1 has done block b + 1: all sweeps pass while the block is in
-// cache. What sweep k overwrites (the argument of sweep k - 1, or the base) was read there, and a block
-// further, before.
+// What sweep k overwrites (the argument of sweep k - 1, or the base) was read in the block and in those
+// beside it before: the team's order.
 void EdgeBody::chain(std::span<const Sweep> sweeps) {
   counters_.force_evaluations += static_cast<std::int64_t>(sweeps.size());
-  const std::size_t blocks = form_.blocks.size();
-  for (std::size_t turn = 0; turn < blocks + sweeps.size() - 1; ++turn) {
-    for (std::size_t k = 0; k < sweeps.size() && k <= turn; ++k) {
-      if (turn - k < blocks) sweep_block(sweeps[k], turn - k);
-    }
-  }
+  team_.chain(sweeps.size(),
+              [&](std::size_t sweep, std::size_t block) { sweep_block(sweeps[sweep], block); });
 }
 
 // Sums over edges: x^T J_lambda w = - sum over edges of dx^T S dw, x^T J_mu w = - sum of dx^T (S + trace(S)
 // I) dw, and the boundary's antisymmetric part in both.
-EnergySample EdgeBody::sample(double t) {
-  const Material& material = model_.material;
+EdgeBody::Sums EdgeBody::sums_of(const EdgeForm::Block& block) const {
   const double* xp = state_.data() + p();
   const double* xv = state_.data() + v();
-  const double* xu = state_.data() + u();
-  double ll = 0.0, mm = 0.0, vl = 0.0, vm = 0.0, kinetic = 0.0;
-  for (const EdgeForm::Run& run : form_.runs) {
+  Sums sums;
+  for (std::int32_t r = block.first_run; r < block.last_run; ++r) {
+    const EdgeForm::Run& run = form_.runs[r];
     const double* s = form_.s.data() + 3 * run.edge;
     const std::uint32_t* offset = form_.offset.data() + run.edge;
     for (std::size_t i = static_cast<std::size_t>(run.first); i < static_cast<std::size_t>(run.last); ++i) {
       const double* pi = xp + 4 * i;
       const double* vi = xv + 2 * i;
-      kinetic += mass_[2 * i] * (vi[0] * vi[0] + vi[1] * vi[1]);
+      sums.kinetic += mass_[2 * i] * (vi[0] * vi[0] + vi[1] * vi[1]);
       for (std::int32_t k = 0; k < run.valence; ++k, s += 3, ++offset) {
         if (*offset < 4 * i) continue;  // each edge once
         const double* pj = xp + *offset;
@@ -191,12 +195,29 @@ EnergySample EdgeBody::sample(double t) {
         const double dx = vj[0] - vi[0], dy = vj[1] - vi[1];
         const double slx = (s[0] + s[1]) * lx + s[2] * ly, sly = s[2] * lx + (s[0] - s[1]) * ly;
         const double smx = (3 * s[0] + s[1]) * mx + s[2] * my, smy = s[2] * mx + (3 * s[0] - s[1]) * my;
-        ll -= lx * slx + ly * sly;
-        mm -= mx * smx + my * smy;
-        vl -= dx * slx + dy * sly;
-        vm -= dx * smx + dy * smy;
+        sums.ll -= lx * slx + ly * sly;
+        sums.mm -= mx * smx + my * smy;
+        sums.vl -= dx * slx + dy * sly;
+        sums.vm -= dx * smx + dy * smy;
       }
     }
+  }
+  return sums;
+}
+
+EnergySample EdgeBody::sample(double t) {
+  const Material& material = model_.material;
+  const double* xp = state_.data() + p();
+  const double* xv = state_.data() + v();
+  const double* xu = state_.data() + u();
+  team_.chain(1, [&](std::size_t, std::size_t block) { sums_[block] = sums_of(form_.blocks[block]); });
+  double ll = 0.0, mm = 0.0, vl = 0.0, vm = 0.0, kinetic = 0.0;
+  for (const Sums& sums : sums_) {
+    ll += sums.ll;
+    mm += sums.mm;
+    vl += sums.vl;
+    vm += sums.vm;
+    kinetic += sums.kinetic;
   }
   // x^T times the boundary's part of F, (h / 4) rot(w_next - w_previous): + for lambda, - for mu.
   for (const EdgeForm::Corner& c : form_.corners) {

@@ -7,20 +7,22 @@
 #include <vector>
 
 #include "body.hpp"
+#include "kernels/block_team.hpp"
 #include "kernels/edge_force.hpp"
 
 namespace rheo {
 
 class EdgeBody final : public Body {
  public:
-  // `force` must outlive this.
-  EdgeBody(const Model& model, const EdgeForce& force);
+  // `force` must outlive this. threads: 0 for as many as pay on this machine.
+  EdgeBody(const Model& model, const EdgeForce& force, int threads);
 
-  // The state's part p holds w_lambda and w_mu: the smaller's size over the larger's, both driven by the same v
-  // at the largest frequency. An error bound for p has to be smaller by as much to hold for both.
+  // The state's part p holds w_lambda and w_mu: the smaller's size over the larger's, both driven by the same
+  // v at the largest frequency. An error bound for p has to be smaller by as much to hold for both.
   static double smallest_share(const Model& model);
 
   std::string_view kernel() const override { return "edge"; }
+  int threads() const override { return team_.threads(); }
   void load(std::span<const double> y) override;
   void store(std::span<double> y) const override;
   void enter(const Interval& interval, const Vector& base) override;
@@ -44,8 +46,17 @@ class EdgeBody final : public Body {
   // One sweep over one block.
   void sweep_block(const Sweep& sweep, std::size_t block) const;
 
+  // Sums over a block's edges and nodes, for the energies.
+  struct Sums {
+    double ll = 0.0, mm = 0.0, vl = 0.0, vm = 0.0;  // x^T J w: w_l with itself, w_m likewise, v with both
+    double kinetic = 0.0;                           // v^T M v
+  };
+  Sums sums_of(const EdgeForm::Block& block) const;
+
   const EdgeForce& edge_force_;
   const EdgeForm& form_;
+  BlockTeam team_;
+  std::vector<Sums> sums_;  // by block: added up in their order, whatever the number of threads
   SweepMaterial material_;
   std::array<StatePart, 3> parts_;
   std::vector<double> mass_;          // n x 2, kernel order

@@ -1,0 +1,82 @@
+#include "kernels/block_team.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "kernels/flush_denormals.hpp"
+
+namespace rheo {
+namespace {
+
+constexpr std::size_t fewest_blocks = 4;  // a thread: fewer are waited for longer than they take
+
+void wait_for(const std::atomic<std::size_t>& progress, std::size_t wanted) {
+  constexpr int spins =
+      4000;  // some 50 microseconds; longer only where there are fewer processors than threads
+  for (int k = 0; progress.load(std::memory_order_acquire) < wanted; ++k) {
+    if (k < spins) {
+#if defined(__x86_64__) && defined(__GNUC__)
+      __builtin_ia32_pause();
+#endif
+    } else {
+      std::this_thread::yield();
+    }
+  }
+}
+
+}  // namespace
+
+int usable_processors() {
+  return std::max(1, omp_get_num_procs());
+}
+
+BlockTeam::BlockTeam(std::size_t blocks, int threads)
+    : blocks_(blocks),
+      threads_(std::clamp(threads, 1, static_cast<int>(std::max<std::size_t>(1, blocks / fewest_blocks)))),
+      progress_(std::make_unique<Progress[]>(static_cast<std::size_t>(threads_))) {}
+
+void BlockTeam::run(std::size_t sweeps, Call call, const void* context) {
+  if (threads_ == 1) {
+    run_stretch(0, 1, sweeps, call, context);
+    return;
+  }
+  for (int k = 0; k < threads_; ++k) {
+    progress_[k].first.store(0, std::memory_order_relaxed);
+    progress_[k].last.store(0, std::memory_order_relaxed);
+  }
+#pragma omp parallel num_threads(threads_)
+  {
+    const FlushDenormals flush;
+    run_stretch(static_cast<std::size_t>(omp_get_thread_num()),
+                static_cast<std::size_t>(omp_get_num_threads()), sweeps, call, context);
+  }
+}
+
+void BlockTeam::run_stretch(std::size_t member, std::size_t team, std::size_t sweeps, Call call,
+                            const void* context) {
+  const std::size_t begin = blocks_ * member / team;
+  const std::size_t end = blocks_ * (member + 1) / team;
+  const std::size_t length = end - begin;
+  // Of two neighbours the first, third, ... goes down from the edge that they share, the other up.
+  const bool down = team > 1 && member % 2 == 0;
+  const std::size_t none = team;
+  const std::size_t above = member + 1 < team ? member + 1 : none;
+  const std::size_t below = member > 0 ? member - 1 : none;
+  const std::size_t at_start = down ? above : below;
+  const std::size_t at_end = down ? below : above;
+  for (std::size_t turn = 0; turn < length + sweeps - 1; ++turn) {
+    for (std::size_t sweep = 0; sweep < sweeps && sweep <= turn; ++sweep) {
+      const std::size_t k = turn - sweep;  // of my blocks
+      if (k >= length) continue;
+      if (k == 0 && at_start != none) wait_for(progress_[at_start].first, sweep);
+      if (k + 1 == length && at_end != none) wait_for(progress_[at_end].last, sweep);
+      call(context, sweep, down ? end - 1 - k : begin + k);
+      if (k == 0) progress_[member].first.store(sweep + 1, std::memory_order_release);
+      if (k + 1 == length) progress_[member].last.store(sweep + 1, std::memory_order_release);
+    }
+  }
+}
+
+}  // namespace rheo

@@ -1,0 +1,57 @@
+// Sweeps over the blocks of a mesh by several threads, in an order that keeps blocks in cache and results the
+// same.
+//
+// Sweep k may visit block b once sweep k - 1 has visited blocks b - 1, b and b + 1 (EdgeForm::Block: a
+// block's nodes have neighbours in adjacent blocks only). Sweeps follow each other through the blocks at a
+// distance of one. Each thread has one stretch of blocks; neighbouring threads start at the block edge that
+// they share and move apart, or move towards each other and end there, so that they wait for each other a few
+// times a chain at most. What a visit computes does not depend on who makes it: results are the same for any
+// number of threads.
+//
+// Threads  OpenMP's pool, which stays between chains; a waiting thread spins, then yields
+// Errors   none; the runtime may give fewer threads than asked for
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <memory>
+
+namespace rheo {
+
+// How many processors this process may use.
+int usable_processors();
+
+class BlockTeam {
+ public:
+  // `threads` are brought down to what the blocks keep busy; at least 1.
+  BlockTeam(std::size_t blocks, int threads);
+
+  int threads() const { return threads_; }
+
+  // visit(sweep, block) for all sweeps and blocks, in such an order; for a single sweep in any.
+  template <class Visit>
+  void chain(std::size_t sweeps, const Visit& visit) {
+    run(
+        sweeps,
+        [](const void* context, std::size_t sweep, std::size_t block) {
+          (*static_cast<const Visit*>(context))(sweep, block);
+        },
+        &visit);
+  }
+
+ private:
+  using Call = void (*)(const void* context, std::size_t sweep, std::size_t block);
+  // How many sweeps have visited the first and the last block of a thread's stretch, in its own direction.
+  struct alignas(64) Progress {
+    std::atomic<std::size_t> first{0}, last{0};
+  };
+
+  void run(std::size_t sweeps, Call call, const void* context);
+  void run_stretch(std::size_t member, std::size_t team, std::size_t sweeps, Call call, const void* context);
+
+  std::size_t blocks_;
+  int threads_;
+  std::unique_ptr<Progress[]> progress_;
+};
+
+}  // namespace rheo

@@ -1,0 +1,106 @@
+// A body at rest takes no steps until something acts, and goes on exactly.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "rheo/simulation.hpp"
+#include "support/exact.hpp"
+#include "support/scenes.hpp"
+
+namespace rheo::test {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// The paper's beam pulled for 0.2 s at once, at 60 s and upwards at 100.3 s.
+Scene pulled_three_times(Mass mass) {
+  Scene scene = paper_beam(mass);
+  Traction traction = scene.tractions[0];
+  scene.tractions.clear();
+  for (const double from : {0.0, 60.0, 100.3}) {
+    traction.window = {from, from + 0.2};
+    if (from > 100.0) traction.keys[0].p = {0.0, 3.0};
+    scene.tractions.push_back(traction);
+  }
+  scene.time.duration = 110.0;
+  scene.time.frame_rate = 1.0;
+  scene.time.step = 1e-3;
+  return scene;
+}
+
+TEST(Rest, IsSkippedAndWokenExactly) {
+  for (const Mass mass : {Mass::lumped, Mass::consistent}) {
+    const Scene scene = pulled_three_times(mass);
+    const std::vector<double> times{1.0, 40.0, 59.0, 60.1, 61.0, 99.0, 101.0, 110.0};
+    const auto exact = ExactSolution(scene).at(times);
+    // RK4's own error: 1e4 times that of the paper's beam with a tenth of the step (Reference).
+    EXPECT_LT(run_error(exact, simulate(scene, times)), mass == Mass::lumped ? 2e-5 : 8e-4);
+    Simulation simulation(scene);
+    ASSERT_FALSE(simulation.advance(scene.time.duration));
+    EXPECT_EQ(simulation.counters().steps_at_rest, 0)
+        << "one segment from event to event: looked at as it begins";
+    Simulation watched(scene);
+    for (std::int64_t k = 0; k < output_count(scene.time); ++k)
+      ASSERT_FALSE(watched.advance(output_time(scene.time, k)));
+    // 1e-16 is reached about 40 s after the first pull and some 20 s after the second: over a third is at
+    // rest.
+    EXPECT_GT(watched.counters().steps_at_rest, 30'000);
+    EXPECT_EQ(watched.counters().steps + watched.counters().steps_at_rest, watched.planned_steps());
+    for (std::size_t i = 0; i < watched.u().size(); ++i) {
+      EXPECT_NEAR(watched.u()[i], simulation.u()[i], 1e-12);
+      EXPECT_NEAR(watched.w_mu()[i], simulation.w_mu()[i], 1e-12);
+    }
+  }
+}
+
+TEST(Rest, NothingIsDoneBeforeTheFirstLoad) {
+  Scene scene = paper_beam(Mass::lumped);
+  scene.tractions[0].window = {3.0, 4.0};
+  scene.time.duration = 3.0;
+  Simulation simulation(scene);
+  ASSERT_FALSE(simulation.advance(2.5));
+  EXPECT_EQ(simulation.counters().steps, 0);
+  EXPECT_EQ(simulation.counters().force_evaluations, 0);
+  EXPECT_GT(simulation.counters().steps_at_rest, 0);
+}
+
+// w of a rigid motion holds no energy but goes on to decay: at rest too.
+TEST(Rest, ResidualForcesOfARigidMotionGoOnToDecay) {
+  Scene scene = paper_beam(Mass::lumped);
+  scene.fixes.clear();
+  scene.tractions.clear();
+  std::vector<int> all(10);
+  for (int i = 0; i < 10; ++i) all[i] = i;
+  Move move;
+  move.nodes = all;
+  move.keys = {{0.0, {0.0, 0.0}, {}}, {1.0, {0.3, 0.1}, {}}};
+  move.profile = Profile::smooth;
+  move.where = "move";
+  scene.moves.push_back(move);
+  scene.time.duration = 4.0;
+  scene.time.step = 1e-3;
+  Simulation simulation(scene);
+  std::vector<double> w;
+  for (double t = 0.5; t <= 4.0; t += 0.5) {
+    ASSERT_FALSE(simulation.advance(t));
+    w.push_back(simulation.w_lambda()[0]);
+  }
+  EXPECT_GT(simulation.counters().steps_at_rest, 0);
+  const double rate = scene.material.lambda_rate();
+  for (std::size_t k = 3; k < w.size(); ++k) EXPECT_NEAR(w[k], w[k - 1] * std::exp(-0.5 * rate), 1e-12);
+  EXPECT_GT(std::abs(w.back()), 1e-4);
+}
+
+TEST(Rest, WhatIsHeldUnderTensionOrMovesFreelyIsNotAtRest) {
+  Scene elastic = paper_beam(Mass::lumped);
+  elastic.material.lambda_vis = elastic.material.mu_vis = infinite;
+  elastic.tractions[0].window = {0.0, 0.2};
+  elastic.time.duration = 3.0;
+  Simulation ringing(elastic);
+  for (double t = 0.5; t <= 3.0; t += 0.5) ASSERT_FALSE(ringing.advance(t));
+  EXPECT_EQ(ringing.counters().steps_at_rest, 0);
+}
+
+}  // namespace
+}  // namespace rheo::test
