@@ -189,8 +189,9 @@ Cost measure(rheo::Simulation& simulation) {
   constexpr double enough_seconds = 0.1;
   constexpr std::int64_t chunk = 16, few = 48;
   const double duration = simulation.scene().time.duration;
-  const bool exponential = simulation.scene().time.integrator == rheo::IntegratorKind::exponential;
-  const double step = exponential
+  // As in a run, from output to output at most.
+  const bool takes_long_steps = std::isinf(simulation.stable_step());
+  const double step = takes_long_steps
                           ? std::min(simulation.step_bound(), 1.0 / simulation.scene().time.frame_rate)
                           : simulation.step_bound();
   // The first step pays for cold memory; it is not counted.
@@ -200,8 +201,7 @@ Cost measure(rheo::Simulation& simulation) {
   const std::int64_t before = simulation.counters().steps;
   const Clock::time_point start = Clock::now();
   while (simulation.time() < duration) {
-    // Exponential steps are as long as they may be: as in a run, from output to output at most.
-    const double t = simulation.time() + (exponential ? step : static_cast<double>(chunk) * step);
+    const double t = simulation.time() + (takes_long_steps ? step : static_cast<double>(chunk) * step);
     cost.divergence = simulation.advance(std::min(t, duration));
     if (cost.divergence) return cost;
     cost.steps = simulation.counters().steps - before;

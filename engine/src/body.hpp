@@ -83,6 +83,8 @@ class Body : public LinearOperator {
   double prescribed(const HeldDof& held, double t, int derivative) const;
   // b and its derivatives of a general constraint.
   double column_value(const Column& column, double t, int derivative) const;
+  // b'' + 2 omega b' + omega^2 b of a general constraint, as the operator's forcing.
+  double column_forcing(const Column& column, const Forcing& forcing) const;
 
   Counters& counters() { return counters_; }
 

@@ -91,7 +91,7 @@ struct Probe {
   std::string where;
 };
 
-enum class IntegratorKind { rk4, euler, exponential };
+enum class IntegratorKind { rk4, euler, exponential, implicit };
 enum class ConstraintMethod {
   automatic,  // eliminate what can be, Baumgarte for the general ones
   baumgarte   // equation (4) for all of them
@@ -101,7 +101,7 @@ struct TimeSettings {
   double duration = 0.0;     // [s], > 0, finite
   double frame_rate = 60.0;  // outputs per second
   IntegratorKind integrator = IntegratorKind::rk4;
-  double step = 0.0;         // upper bound [s]; 0: a quarter of the stable limit, exponential: none
+  double step = 0.0;         // upper bound [s]; 0: a quarter of the stable limit; exponential, implicit: none
   double tolerance = 1e-10;  // exponential: relative error of a run
   double baumgarte = 20.0;   // omega [1/s]; 0: no stabilisation, constraints hold to the rounding of A^T v
   ConstraintMethod constraints = ConstraintMethod::automatic;

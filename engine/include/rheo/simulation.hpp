@@ -34,8 +34,8 @@ struct Energies {
   double stored = 0.0;      // 1/2 w_l^T J_l w_l / lambda_ela + 1/2 w_m^T J_m w_m / mu_ela
   double dissipated = 0.0;  // since the start, by a quadrature of the integrator's order
   double work = 0.0;        // of loads, moving constraints and impulses, since the start, likewise
-  // Not known (NaN) with the exponential integrator, whose steps are too long for a quadrature: dissipated,
-  // unless nothing relaxes; work, where nodes are moved or a traction has several keys.
+  // Not known (NaN) with the exponential and implicit integrators, whose steps are too long for a quadrature:
+  // dissipated, unless nothing relaxes; work, where nodes are moved or a traction has several keys.
 };
 
 struct Divergence {
@@ -59,6 +59,8 @@ struct Counters {
   std::int64_t projections = 0;        // velocity jumps where constraints begin
   std::int64_t energy_samples = 0;     // looks at the energies: each costs about one evaluation
   std::int64_t steps_at_rest = 0;      // not taken, because nothing moved and nothing acted
+  std::int64_t factors = 0;            // implicit: made, for a step size and set of constraints each
+  std::int64_t shifted_solves = 0;     // implicit: sparse solves with them
 };
 
 // Ways to the same rheological force.
@@ -85,15 +87,15 @@ class Simulation {
   const Scene& scene() const;
 
   // The stable limits (over all sets of constraints that the scene goes through) and the largest step that
-  // will be used; both infinite for the exponential integrator (then from event to event and output to
-  // output), the second unless a step is given.
+  // will be used; both infinite for the exponential and the implicit integrator (then from event to event and
+  // output to output), the second unless a step is given.
   const Spectrum& spectrum() const;
   double stable_step() const;
   double step_bound() const;
   // The largest taken so far; 0 before the first.
   double largest_step() const;
-  // Steps from 0 to the scene's duration with outputs at its frame rate. Costs nothing: counted, not run, those at
-  // rest too.
+  // Steps from 0 to the scene's duration with outputs at its frame rate. Costs nothing: counted, not run,
+  // those at rest too.
   std::int64_t planned_steps() const;
 
   // The kernel in use: "csr" or "edge".

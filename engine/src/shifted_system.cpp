@@ -1,0 +1,189 @@
+#include "shifted_system.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace rheo {
+namespace {
+
+// Factors kept: enough for a step and its shorter neighbours on both sides of an event, with and without a
+// hold.
+constexpr std::size_t most_factors = 6;
+constexpr std::size_t fewest_factors = 2;
+constexpr std::size_t factors_budget = std::size_t{512} << 20;  // bytes, beyond the fewest
+// Of a known answer, the softest motion there is: a factor that gives less has lost the rest to rounding.
+constexpr double digits_needed = 1e-6;
+
+BlockPattern pattern_of(const Model& model) {
+  const auto n = static_cast<int>(model.node_mass.size());
+  BlockPattern pattern;
+  pattern.start.assign(1, 0);
+  const SparseMatrix& stiffness = model.layout.lambda ? model.j_lambda : model.j_mu;
+  for (int i = 0; i < n; ++i) {
+    if (model.layout.lambda || model.layout.mu) {
+      for (SparseMatrix::InnerIterator it(stiffness, 2 * i); it; ++it) {
+        if (it.col() % 2 == 0) pattern.column.push_back(static_cast<int>(it.col() / 2));
+      }
+    } else if (model.material.mass == Mass::consistent) {
+      for (SparseMatrix::InnerIterator it(model.mass, i); it; ++it)
+        pattern.column.push_back(static_cast<int>(it.col()));
+    } else {
+      pattern.column.push_back(i);
+    }
+    pattern.start.push_back(static_cast<int>(pattern.column.size()));
+  }
+  return pattern;
+}
+
+}  // namespace
+
+ShiftedSystem::Factor::Factor(double shift, std::shared_ptr<const ConstraintSolver> set,
+                              std::shared_ptr<const BlockAnalysis> analysis)
+    : s(shift), constraints(std::move(set)), blocks(std::move(analysis)) {
+  const auto dofs = 2 * static_cast<std::size_t>(blocks.nodes());
+  free.resize(dofs);
+  for (std::size_t i = 0; i < dofs; ++i) free[i] = constraints->is_free(i) ? 1 : 0;
+  const auto& columns = constraints->columns();
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    const bool one = columns[j].entries.size() == 1;
+    (one ? single : general).push_back(static_cast<int>(j));
+    if (one) free[columns[j].entries.front().first] = 0;
+  }
+}
+
+ShiftedSystem::ShiftedSystem(const Model& model)
+    : model_(model), analysis_(std::make_shared<BlockAnalysis>(pattern_of(model))) {
+  values_.resize(analysis_->pattern().column.size());
+  const auto size = static_cast<Eigen::Index>(model.layout.part);
+  work_.setZero(size);
+  correction_.setZero(size);
+}
+
+ShiftedSystem::Found ShiftedSystem::prepare(double s,
+                                            const std::shared_ptr<const ConstraintSolver>& constraints) {
+  const auto known = std::find_if(factors_.begin(), factors_.end(), [&](const auto& factor) {
+    return factor->s == s && factor->constraints == constraints;
+  });
+  if (known != factors_.end()) {
+    std::rotate(factors_.begin(), known, known + 1);
+    current_ = factors_.front().get();
+    return Found::kept;
+  }
+  const std::size_t affordable = factors_budget / std::max<std::size_t>(1, analysis_->factor_bytes());
+  const std::size_t kept = std::clamp(affordable, fewest_factors, most_factors);
+  while (factors_.size() >= kept) factors_.pop_back();
+  factors_.push_front(std::make_unique<Factor>(s, constraints, analysis_));
+  Factor& factor = *factors_.front();
+  current_ = &factor;
+  fill_values(factor);
+  if (factor.blocks.factor(values_) && holds_digits(factor) && factor_schur(factor)) return Found::made;
+  factors_.pop_front();
+  current_ = nullptr;
+  return Found::failed;
+}
+
+// S, where driven degrees of freedom have the row and column of the unit matrix.
+void ShiftedSystem::fill_values(const Factor& factor) {
+  const Material& material = model_.material;
+  const double s = factor.s;
+  const double lambda = s * s * material.lambda_ela / (1.0 + s * material.lambda_rate());
+  const double mu = s * s * material.mu_ela / (1.0 + s * material.mu_rate());
+  const bool consistent = material.mass == Mass::consistent;
+  const BlockPattern& pattern = analysis_->pattern();
+  const auto add = [&](const SparseMatrix& j, double weight, int node, int entry, Block& block) {
+    for (int row = 0; row < 2; ++row) {
+      const double* values = j.valuePtr() + j.outerIndexPtr()[2 * node + row] + 2 * entry;
+      block[2 * row] += weight * values[0];
+      block[2 * row + 1] += weight * values[1];
+    }
+  };
+  for (int node = 0; node < pattern.nodes(); ++node) {
+    for (int p = pattern.start[node]; p < pattern.start[node + 1]; ++p) {
+      const int entry = p - pattern.start[node];
+      const int column = pattern.column[p];
+      Block block{};
+      if (model_.layout.lambda) add(model_.j_lambda, lambda, node, entry, block);
+      if (model_.layout.mu) add(model_.j_mu, mu, node, entry, block);
+      const double mass = consistent ? model_.mass.valuePtr()[model_.mass.outerIndexPtr()[node] + entry]
+                                     : (column == node ? model_.node_mass[node] : 0.0);
+      block[0] += mass;
+      block[3] += mass;
+      for (int row = 0; row < 2; ++row) {
+        for (int col = 0; col < 2; ++col) {
+          if (factor.free[2 * node + row] && factor.free[2 * column + col]) continue;
+          block[2 * row + col] = column == node && row == col ? 1.0 : 0.0;
+        }
+      }
+      values_[p] = block;
+    }
+  }
+}
+
+bool ShiftedSystem::holds_digits(const Factor& factor) {
+  // S e for e = 1 on all free degrees of freedom, from the values that were factored.
+  const BlockPattern& pattern = analysis_->pattern();
+  for (int node = 0; node < pattern.nodes(); ++node) {
+    double x = 0.0, y = 0.0;
+    for (int p = pattern.start[node]; p < pattern.start[node + 1]; ++p) {
+      const Block& block = values_[p];
+      x += block[0] + block[1];
+      y += block[2] + block[3];
+    }
+    work_[2 * node] = x;
+    work_[2 * node + 1] = y;
+  }
+  factor.blocks.solve({work_.data(), static_cast<std::size_t>(work_.size())});
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < work_.size(); ++i) largest = std::max(largest, std::abs(work_[i] - 1.0));
+  return largest <= digits_needed;  // false for NaN
+}
+
+bool ShiftedSystem::factor_schur(Factor& factor) {
+  const auto m = static_cast<Eigen::Index>(factor.general.size());
+  if (m == 0) return true;
+  Eigen::MatrixXd schur(m, m);
+  Vector unit = Vector::Zero(m);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    unit[j] = 1.0;
+    spread(factor, unit);
+    unit[j] = 0.0;
+    factor.blocks.solve({correction_.data(), static_cast<std::size_t>(correction_.size())});
+    for (Eigen::Index i = 0; i < m; ++i)
+      schur(i, j) = factor.constraints->row_times(factor.general[i], correction_.data());
+  }
+  factor.schur.compute(schur);
+  return factor.schur.info() == Eigen::Success;
+}
+
+void ShiftedSystem::spread(const Factor& factor, const Vector& multipliers) {
+  correction_.setZero();
+  for (std::size_t j = 0; j < factor.general.size(); ++j) {
+    for (const auto& [dof, coefficient] : factor.constraints->columns()[factor.general[j]].entries) {
+      if (factor.free[dof]) correction_[dof] += coefficient * multipliers[static_cast<Eigen::Index>(j)];
+    }
+  }
+}
+
+int ShiftedSystem::solve(Vector& r, Vector& d, Vector& target) {
+  assert(current_ != nullptr);
+  const Factor& factor = *current_;
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    if (!factor.free[i]) r[i] = 0.0;
+  }
+  factor.blocks.solve({r.data(), static_cast<std::size_t>(r.size())});
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    if (factor.free[i]) d[i] = r[i];
+  }
+  if (factor.general.empty()) return 1;
+  for (std::size_t j = 0; j < factor.general.size(); ++j)
+    target[static_cast<Eigen::Index>(j)] -= factor.constraints->row_times(factor.general[j], d.data());
+  factor.schur.solveInPlace(target);
+  spread(factor, target);
+  factor.blocks.solve({correction_.data(), static_cast<std::size_t>(correction_.size())});
+  d += correction_;
+  return 2;
+}
+
+}  // namespace rheo
