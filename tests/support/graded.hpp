@@ -24,7 +24,7 @@ inline std::vector<double> graded_points(double length, double coarse, double fi
   return points;
 }
 
-// 0.1 m x 0.04 m, held at the left, pulled at the right for a tenth of a second; pieces from 5 mm down to
+// 0.1 m x 0.04 m, held at the left, pulled at the right and let go, within 0.3 s; pieces from 5 mm down to
 // `fine`.
 inline Scene graded_block(double fine) {
   const double width = 0.1, height = 0.04;
@@ -40,8 +40,10 @@ inline Scene graded_block(double fine) {
   prepare(scene.mesh);
   scene.material = {4000.0, 1500.0, 4000.0, 750.0, 1000.0, Mass::lumped};
   scene.fixes.push_back({nodes_of(scene.mesh.edge_groups.at("left")), Axis::both, {}, "left"});
-  scene.tractions.push_back(
-      {scene.mesh.edge_groups.at("right"), {{0.0, {100.0, 30.0}}}, {0.0, 0.1}, "right"});
+  scene.tractions.push_back({scene.mesh.edge_groups.at("right"),
+                             {{0.0, {0, 0}}, {0.1, {100.0, 30.0}}, {0.2, {100.0, 30.0}}, {0.3, {0, 0}}},
+                             {},
+                             "right"});
   scene.time.duration = 0.5;
   return scene;
 }
