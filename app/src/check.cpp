@@ -159,6 +159,9 @@ void print_steps(const rheo::Simulation& simulation, rheo::IntegratorKind integr
   row("integrator", "{}", name_of(integrator));
   row("kernel", "{}", simulation.kernel());
   if (integrator == rheo::IntegratorKind::exponential) row("tolerance", "{:g}", time.tolerance);
+  if (simulation.factor_bytes() > 0)
+    row("factor", "{:.3g} MB for each step size in use",
+        static_cast<double>(simulation.factor_bytes()) / 1e6);
   if (verdict == Verdict::no_step) {
     row("step", "none: no step of euler is stable here, some vibrations are not damped");
   } else if (std::isinf(simulation.step_bound())) {

@@ -56,6 +56,8 @@ class Body : public LinearOperator {
 
   virtual std::string_view kernel() const = 0;
   virtual int threads() const { return 1; }
+  // Of the implicit integrator's factor for one step size [bytes].
+  virtual std::size_t factor_bytes() const { return 0; }
 
   // From and to the mesh's order.
   virtual void load(std::span<const double> y) = 0;

@@ -21,6 +21,7 @@ class ShiftedBody final : public AssembledBody {
  public:
   ShiftedBody(const Model& model, double omega);
 
+  std::size_t factor_bytes() const override { return system_.factor_bytes(); }
   bool solves_shifted() const override { return true; }
   bool prepare_shifted(double s) override;
   void solve_shifted(double s, std::span<const double> x, const Forcing& forcing,

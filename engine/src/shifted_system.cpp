@@ -8,11 +8,6 @@
 namespace rheo {
 namespace {
 
-// Factors kept: enough for a step and its shorter neighbours on both sides of an event, with and without a
-// hold.
-constexpr std::size_t most_factors = 6;
-constexpr std::size_t fewest_factors = 2;
-constexpr std::size_t factors_budget = std::size_t{512} << 20;  // bytes, beyond the fewest
 // Of a known answer, the softest motion there is: a factor that gives less has lost the rest to rounding.
 constexpr double digits_needed = 1e-6;
 
@@ -71,9 +66,9 @@ ShiftedSystem::Found ShiftedSystem::prepare(double s,
     current_ = factors_.front().get();
     return Found::kept;
   }
-  const std::size_t affordable = factors_budget / std::max<std::size_t>(1, analysis_->factor_bytes());
-  const std::size_t kept = std::clamp(affordable, fewest_factors, most_factors);
-  while (factors_.size() >= kept) factors_.pop_back();
+  const double affordable = factors_budget / static_cast<double>(analysis_->factor_bytes());
+  const double kept = std::clamp<double>(affordable, fewest_factors, most_factors);
+  while (static_cast<double>(factors_.size()) + 1.0 > kept) factors_.pop_back();
   factors_.push_front(std::make_unique<Factor>(s, constraints, analysis_));
   Factor& factor = *factors_.front();
   current_ = &factor;

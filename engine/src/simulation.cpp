@@ -494,6 +494,9 @@ std::string_view Simulation::kernel() const {
 int Simulation::threads() const {
   return impl_->body->threads();
 }
+std::size_t Simulation::factor_bytes() const {
+  return impl_->body->factor_bytes();
+}
 
 std::span<const double> Simulation::reaction() {
   impl_->know_reaction();

@@ -143,6 +143,12 @@ inline constexpr int max_picture_side = 16384;
 inline constexpr double finest_tolerance = 1e-13;  // below it rounding rules
 inline constexpr double coarsest_tolerance = 0.1;
 
+// The implicit integrator keeps the factors of its latest step sizes: as many as the budget holds, within
+// these.
+inline constexpr int fewest_factors = 2;
+inline constexpr int most_factors = 6;
+inline constexpr double factors_budget = 512e6;  // bytes
+
 // The settings alone, for values that come from elsewhere than a scene file (a command line, a panel).
 void validate(const TimeSettings& time);
 void validate(const PictureSettings& picture);

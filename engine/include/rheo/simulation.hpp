@@ -16,6 +16,7 @@
 // Not here files, pictures
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -102,6 +103,8 @@ class Simulation {
   std::string_view kernel() const;
   // How many threads its steps have.
   int threads() const;
+  // Memory of the implicit integrator's factor for one step size [bytes]; 0 for the others.
+  std::size_t factor_bytes() const;
 
   double time() const;
   // Runs to time t >= time(), in equal steps between the events on the way; nullopt when all is well.
