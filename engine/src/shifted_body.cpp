@@ -5,7 +5,7 @@ namespace rheo {
 ShiftedBody::ShiftedBody(const Model& model, double omega) : AssembledBody(model, omega), system_(model) {
   const auto part = static_cast<Eigen::Index>(model.layout.part);
   increment_.setZero(part);
-  pulled_.setZero(part);
+  pull_.assign(2 * model.layout.part, 0.0);
   right_.setZero(part);
   product_.setZero(part);
 }
@@ -65,14 +65,16 @@ void ShiftedBody::solve_shifted(double s, std::span<const double> x, const Forci
     right_ +=
         (forcing.weight[0] * (forcing.t - interval_->begin) + forcing.weight[1]) * interval_->force_rate;
   }
-  const auto pull = [&](const SparseMatrix& j, std::size_t offset, double ela, double decay) {
+  const auto pull = [&](std::size_t place, std::size_t offset, double ela, double decay) {
     const double scale = 1.0 / (1.0 + s * decay);
-    pulled_ = scale * (ConstVectorMap(x.data() + offset, part) + s * ela * (v + increment_));
-    product_.noalias() = j * pulled_;
-    right_ -= product_;
+    for (std::size_t i = 0; i < layout.part; ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      pull_[4 * (i / 2) + place + i % 2] = scale * (x[offset + i] + s * ela * (v[k] + increment_[k]));
+    }
   };
-  if (layout.lambda) pull(model_.j_lambda, layout.w_lambda(), material.lambda_ela, material.lambda_rate());
-  if (layout.mu) pull(model_.j_mu, layout.w_mu(), material.mu_ela, material.mu_rate());
+  if (layout.lambda) pull(0, layout.w_lambda(), material.lambda_ela, material.lambda_rate());
+  if (layout.mu) pull(2, layout.w_mu(), material.mu_ela, material.mu_rate());
+  system_.subtract_force(pull_, right_);
   right_ *= s;
   if (driven && material.mass == Mass::consistent) {
     model_.multiply_mass(increment_.data(), product_.data());

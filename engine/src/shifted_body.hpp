@@ -33,7 +33,8 @@ class ShiftedBody final : public AssembledBody {
                           const Forcing& forcing) const;
 
   ShiftedSystem system_;
-  Vector increment_, pulled_, right_, product_, target_;
+  Vector increment_, right_, product_, target_;
+  std::vector<double> pull_;  // p, n x 4
 };
 
 }  // namespace rheo

@@ -1,9 +1,13 @@
 #include "shifted_system.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <utility>
+
+#include "rheo/error.hpp"
 
 namespace rheo {
 namespace {
@@ -32,7 +36,34 @@ BlockPattern pattern_of(const Model& model) {
   return pattern;
 }
 
+// Every 2 x 2 block of a connection matrix into the numbers from `offset` on of its link.
+void copy_blocks(const BlockPattern& pattern, const SparseMatrix& matrix, std::size_t offset,
+                 std::vector<std::array<double, 8>>& links) {
+  for (int node = 0; node < pattern.nodes(); ++node) {
+    for (int p = pattern.start[node]; p < pattern.start[node + 1]; ++p) {
+      for (int row = 0; row < 2; ++row) {
+        const double* values =
+            matrix.valuePtr() + matrix.outerIndexPtr()[2 * node + row] + 2 * (p - pattern.start[node]);
+        links[p][offset + 2 * row] = values[0];
+        links[p][offset + 2 * row + 1] = values[1];
+      }
+    }
+  }
+}
+
 }  // namespace
+
+void require_few_general_constraints(const Scene& scene) {
+  constexpr double memory_limit = 4e9;  // bytes
+  // Two factors kept, each while it is made in two copies.
+  const auto m = static_cast<double>(scene.constraints.size());
+  const double need = 4.0 * m * m * sizeof(double);
+  if (need <= memory_limit) return;
+  throw Error(Error::Kind::input,
+              fmt::format("{} general constraints with integrator = \"implicit\" need about {:.1f} GB, the "
+                          "limit is {:.1f} GB: use \"rk4\"",
+                          scene.constraints.size(), need * 1e-9, memory_limit * 1e-9));
+}
 
 ShiftedSystem::Factor::Factor(double shift, std::shared_ptr<const ConstraintSolver> set,
                               std::shared_ptr<const BlockAnalysis> analysis)
@@ -50,7 +81,11 @@ ShiftedSystem::Factor::Factor(double shift, std::shared_ptr<const ConstraintSolv
 
 ShiftedSystem::ShiftedSystem(const Model& model)
     : model_(model), analysis_(std::make_shared<BlockAnalysis>(pattern_of(model))) {
-  values_.resize(analysis_->pattern().column.size());
+  const BlockPattern& pattern = analysis_->pattern();
+  values_.resize(pattern.column.size());
+  links_.resize(pattern.column.size());
+  if (model.layout.lambda) copy_blocks(pattern, model.j_lambda, 0, links_);
+  if (model.layout.mu) copy_blocks(pattern, model.j_mu, 4, links_);
   const auto size = static_cast<Eigen::Index>(model.layout.part);
   work_.setZero(size);
   correction_.setZero(size);
@@ -87,20 +122,12 @@ void ShiftedSystem::fill_values(const Factor& factor) {
   const double mu = s * s * material.mu_ela / (1.0 + s * material.mu_rate());
   const bool consistent = material.mass == Mass::consistent;
   const BlockPattern& pattern = analysis_->pattern();
-  const auto add = [&](const SparseMatrix& j, double weight, int node, int entry, Block& block) {
-    for (int row = 0; row < 2; ++row) {
-      const double* values = j.valuePtr() + j.outerIndexPtr()[2 * node + row] + 2 * entry;
-      block[2 * row] += weight * values[0];
-      block[2 * row + 1] += weight * values[1];
-    }
-  };
   for (int node = 0; node < pattern.nodes(); ++node) {
     for (int p = pattern.start[node]; p < pattern.start[node + 1]; ++p) {
       const int entry = p - pattern.start[node];
       const int column = pattern.column[p];
-      Block block{};
-      if (model_.layout.lambda) add(model_.j_lambda, lambda, node, entry, block);
-      if (model_.layout.mu) add(model_.j_mu, mu, node, entry, block);
+      Block block;
+      for (int k = 0; k < 4; ++k) block[k] = lambda * links_[p][k] + mu * links_[p][4 + k];
       const double mass = consistent ? model_.mass.valuePtr()[model_.mass.outerIndexPtr()[node] + entry]
                                      : (column == node ? model_.node_mass[node] : 0.0);
       block[0] += mass;
@@ -158,6 +185,26 @@ void ShiftedSystem::spread(const Factor& factor, const Vector& multipliers) {
     for (const auto& [dof, coefficient] : factor.constraints->columns()[factor.general[j]].entries) {
       if (factor.free[dof]) correction_[dof] += coefficient * multipliers[static_cast<Eigen::Index>(j)];
     }
+  }
+}
+
+void ShiftedSystem::subtract_force(std::span<const double> pull, Vector& r) const {
+  const BlockPattern& pattern = analysis_->pattern();
+  for (int node = 0; node < pattern.nodes(); ++node) {
+    const double* own = pull.data() + 4 * static_cast<std::size_t>(node);
+    double lambda_x = 0.0, lambda_y = 0.0, mu_x = 0.0, mu_y = 0.0;
+    for (int p = pattern.start[node]; p < pattern.start[node + 1]; ++p) {
+      const double* other = pull.data() + 4 * static_cast<std::size_t>(pattern.column[p]);
+      const std::array<double, 8>& link = links_[p];
+      const double d0 = other[0] - own[0], d1 = other[1] - own[1];
+      const double d2 = other[2] - own[2], d3 = other[3] - own[3];
+      lambda_x += link[0] * d0 + link[1] * d1;
+      lambda_y += link[2] * d0 + link[3] * d1;
+      mu_x += link[4] * d2 + link[5] * d3;
+      mu_y += link[6] * d2 + link[7] * d3;
+    }
+    r[2 * node] -= lambda_x + mu_x;
+    r[2 * node + 1] -= lambda_y + mu_y;
   }
 }
 

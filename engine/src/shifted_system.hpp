@@ -15,11 +15,11 @@
 //
 // Shapes   r, d: 2n; target: one a general constraint of several terms
 // Errors   prepare: failed where the factor has not enough correct digits
-// Not here how many general constraints there may be: their dense factor is bounded at construction
-// (simulation.cpp)
+//          require_few_general_constraints: Error::Kind::input
 #pragma once
 
 #include <Eigen/Cholesky>
+#include <array>
 #include <deque>
 #include <memory>
 #include <span>
@@ -30,6 +30,9 @@
 #include "model.hpp"
 
 namespace rheo {
+
+// Many general constraints make a large dense factor: refused beyond what it may take.
+void require_few_general_constraints(const Scene& scene);
 
 class ShiftedSystem {
  public:
@@ -43,6 +46,11 @@ class ShiftedSystem {
   // Which columns of the constraints hold one degree of freedom each, and the others.
   const std::vector<int>& single() const { return current_->single; }
   const std::vector<int>& general() const { return current_->general; }
+
+  // r -= J_lambda p_lambda + J_mu p_mu, the rows summed as sum over j of J_ij (p_j - p_i): what a rigid
+  // motion has in common at all nodes leaves no rounding behind, however stiff the body. pull: p, n x 4
+  // (lambda x, y, mu x, y)
+  void subtract_force(std::span<const double> pull, Vector& r) const;
 
   // d: on entry the increments of driven degrees of freedom and anything elsewhere, on return all of them.
   // r is overwritten. Returns how many sparse solves that took.
@@ -70,6 +78,7 @@ class ShiftedSystem {
 
   const Model& model_;
   std::shared_ptr<const BlockAnalysis> analysis_;
+  std::vector<std::array<double, 8>> links_;  // the blocks of J_lambda and J_mu, row-major, by the pattern
   std::vector<Block> values_;
   std::deque<std::unique_ptr<Factor>> factors_;  // the latest first
   Factor* current_ = nullptr;

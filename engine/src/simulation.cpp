@@ -67,7 +67,6 @@ struct Simulation::Impl {
         stride(options.energies ? 1 : unasked_stride),
         y(model.layout.size(), 0.0),
         zeros(model.layout.part, 0.0) {
-    check_general_constraints();
     choose_step(options);
     const auto part = static_cast<Eigen::Index>(model.layout.part);
     base.setZero(part);
@@ -88,18 +87,6 @@ struct Simulation::Impl {
   bool implicit() const { return scene.time.integrator == IntegratorKind::implicit; }
   // No stable limit: steps go from event to event and output to output, too long for a quadrature.
   bool takes_long_steps() const { return exponential() || implicit(); }
-
-  // Many general constraints make a dense factor of as many rows, which solves and is kept a few times.
-  void check_general_constraints() const {
-    constexpr double memory_limit = 4e9;  // bytes
-    const auto m = static_cast<double>(scene.constraints.size());
-    const double need = 32.0 * m * m;
-    if (!implicit() || need <= memory_limit) return;
-    throw Error(Error::Kind::input,
-                fmt::format("{} general constraints with integrator = \"implicit\" need about {:.1f} GB, the "
-                            "limit is {:.1f} GB: use \"rk4\"",
-                            scene.constraints.size(), need * 1e-9, memory_limit * 1e-9));
-  }
 
   // The tolerance is that of the run: errors of its steps add up at worst.
   ExponentialSettings exponential_settings() const {
@@ -162,7 +149,10 @@ struct Simulation::Impl {
 
   std::unique_ptr<Body> make_body(int threads) const {
     if (model.edges) return std::make_unique<EdgeBody>(model, *model.edges, threads);
-    if (implicit()) return std::make_unique<ShiftedBody>(model, scene.time.baumgarte);
+    if (implicit()) {
+      require_few_general_constraints(scene);
+      return std::make_unique<ShiftedBody>(model, scene.time.baumgarte);
+    }
     return std::make_unique<AssembledBody>(model, scene.time.baumgarte);
   }
 

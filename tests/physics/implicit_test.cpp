@@ -13,6 +13,7 @@
 
 #include "rheo/error.hpp"
 #include "rheo/simulation.hpp"
+#include "shifted_system.hpp"
 #include "support/event_scenes.hpp"
 #include "support/exact.hpp"
 
@@ -252,6 +253,26 @@ TEST(Implicit, LeavesOutEnergiesThatAQuadratureOverItsLongStepsWouldGetWrong) {
   EXPECT_TRUE(std::isnan(held.energies().work));
 }
 
+TEST(Implicit, AFallingBodyFallsWhateverItsStiffness) {
+  // Nothing deforms, so v = g t at every node; residual forces of the fall are up to 1e10 times the weight.
+  // What rounding leaves of that grows with (omega h)^2, and stays within what the factor is held to.
+  for (Mass mass : {Mass::lumped, Mass::consistent}) {
+    for (const auto& [stiffness, tolerance] : {std::pair{1e4, 1e-11}, {1e6, 1e-9}, {1e10, 1e-6}}) {
+      Scene scene =
+          with_material(in_free_flight(mass), 7 * stiffness, 5 * stiffness, 4 * stiffness, 2 * stiffness);
+      scene.mesh = rectangle({2.0, 1.0}, 21, 11);
+      scene.tractions.clear();
+      scene.time.duration = 10.0;
+      Simulation simulation(implicit(scene, 1.0 / 60));
+      ASSERT_FALSE(simulation.advance(10.0)) << stiffness;
+      for (int node = 0; node < scene.mesh.node_count(); ++node) {
+        EXPECT_NEAR(simulation.v()[2 * node], 5.0, 98.1 * tolerance) << stiffness;
+        EXPECT_NEAR(simulation.v()[2 * node + 1], -98.1, 98.1 * tolerance) << stiffness;
+      }
+    }
+  }
+}
+
 TEST(Implicit, StopsWhereItsFactorHasNoDigitsLeft) {
   // Volume held a million million times as stiffly as shape: the shape is lost in the rounding of the volume.
   Scene scene = implicit(with_material(off_grid_beam(Mass::lumped), 7e15, 5, 4e15, 2), 1.0);
@@ -260,6 +281,20 @@ TEST(Implicit, StopsWhereItsFactorHasNoDigitsLeft) {
   ASSERT_TRUE(diverged.has_value());
   EXPECT_EQ(simulation.counters().steps, 0);
   for (double x : simulation.u()) EXPECT_TRUE(std::isfinite(x));
+}
+
+TEST(Implicit, RefusesMoreGeneralConstraintsThanTheirFactorMayTake) {
+  Scene scene;
+  scene.constraints.resize(11'000);
+  EXPECT_NO_THROW(require_few_general_constraints(scene));
+  scene.constraints.resize(20'000);
+  try {
+    require_few_general_constraints(scene);
+    ADD_FAILURE() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Error::Kind::input);
+    EXPECT_NE(std::string(error.what()).find("20000 general constraints"), std::string::npos) << error.what();
+  }
 }
 
 TEST(Implicit, RefusesTheEdgeKernelInOneLine) {
