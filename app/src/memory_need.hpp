@@ -2,7 +2,7 @@
 //
 // An estimate: about 0.9 kB a node with lumped mass, 2.7 kB with the consistent one, whose factors fill in
 // (peak resident size of `rheo check` on a rectangle of 500 x 500 nodes). The implicit integrator needs
-// matrices, 2.9 and 4.5 kB a node, and for each factor kept 81 log2(nodes) bytes a node (measured from 500 to
+// matrices, 2.4 and 4.5 kB a node, and for each factor kept 81 log2(nodes) bytes a node (measured from 500 to
 // 500,000 nodes).
 //
 // Units    bytes
@@ -25,7 +25,7 @@ namespace app {
 inline double implicit_need(const rheo::Scene& scene) {
   const double nodes = scene.mesh.node_count();
   const double factor = 81.0 * std::log2(nodes) * nodes;
-  return nodes * (scene.material.mass == rheo::Mass::lumped ? 2900.0 : 4500.0) +
+  return nodes * (scene.material.mass == rheo::Mass::lumped ? 2400.0 : 4500.0) +
          std::max(rheo::fewest_factors * factor, std::min(rheo::most_factors * factor, rheo::factors_budget));
 }
 

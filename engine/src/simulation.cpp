@@ -94,7 +94,7 @@ struct Simulation::Impl {
     if (exponential() && has_columns(scene)) {
       throw Error(Error::Kind::input,
                   "integrator = \"exponential\" needs constraints = \"auto\" without [[constraint]]: use "
-                  "\"rk4\"");
+                  "\"rk4\" or \"implicit\"");
     }
     const double rate =
         settings.step > 0.0 ? std::max(settings.frame_rate, 1.0 / settings.step) : settings.frame_rate;
