@@ -79,7 +79,9 @@ Json counters_of(const rheo::Counters& counters) {
           {"constraint_solves", counters.constraint_solves},
           {"projections", counters.projections},
           {"energy_samples", counters.energy_samples},
-          {"steps_at_rest", counters.steps_at_rest}};
+          {"steps_at_rest", counters.steps_at_rest},
+          {"factors", counters.factors},
+          {"shifted_solves", counters.shifted_solves}};
 }
 
 Json seconds_of(const Seconds& seconds) {

@@ -5,6 +5,7 @@
 
 #include "aligned_vector.hpp"
 #include "exponential.hpp"
+#include "implicit.hpp"
 
 namespace rheo {
 namespace {
@@ -83,6 +84,8 @@ std::unique_ptr<Integrator> make_integrator(IntegratorKind kind, std::size_t siz
       return std::make_unique<Euler>(size);
     case IntegratorKind::exponential:
       return std::make_unique<Exponential>(size, settings);
+    case IntegratorKind::implicit:
+      return std::make_unique<Implicit>(size);
     case IntegratorKind::rk4:
       break;
   }

@@ -11,6 +11,10 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+bool has_no_limit(IntegratorKind integrator) {
+  return integrator == IntegratorKind::exponential || integrator == IntegratorKind::implicit;
+}
+
 // |R(z)|^2 - 1 for the Taylor polynomial of degree 4.
 double growth(std::complex<double> z) {
   const std::complex<double> r = 1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)));
@@ -71,7 +75,7 @@ double stable_step_of(std::complex<double> s, IntegratorKind integrator) {
   const double size = std::abs(s);
   if (size == 0.0) return infinite;
   if (s.real() > 0.0) return 0.0;
-  if (integrator == IntegratorKind::exponential) return infinite;
+  if (has_no_limit(integrator)) return infinite;
   const std::complex<double> direction = s / size;
   const double radius = integrator == IntegratorKind::euler ? -2.0 * direction.real() : rk4_radius(direction);
   return radius / size;
@@ -83,7 +87,7 @@ bool stable_step_is_bound(const Spectrum& spectrum, IntegratorKind integrator) {
 }
 
 double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
-  if (integrator == IntegratorKind::exponential) return infinite;
+  if (has_no_limit(integrator)) return infinite;
   double step = infinite;
   const auto include = [&](std::complex<double> s) { step = std::min(step, stable_step_of(s, integrator)); };
 
