@@ -21,9 +21,11 @@ namespace app {
 struct Reference {
   Trajectory exact;
   std::string method;
-  std::string check;         // how far an independent way is from it; empty where none was taken
-  double uncertainty = 0.0;  // errors below it say nothing
-  bool by_exponential = false;
+  std::string check;                 // how far an independent way is from it; empty where none was taken
+  double uncertainty = 0.0;          // errors below it say nothing
+  double exponential_seconds = 0.0;  // that its run took; 0 where it came another way
+
+  bool by_exponential() const { return exponential_seconds > 0.0; }
 };
 
 // `budget`: seconds that this may take.

@@ -40,10 +40,11 @@ constexpr std::array families{
 
 constexpr double accurate_enough = 1e-11;  // no finer settings beyond it
 constexpr double share_of_rest = 0.3;      // of the budget's rest, for one run
+constexpr double share_of_repeats = 0.3;   // of the budget, kept for them
 constexpr double coarsest = 1e-2;          // tolerance
 // Short runs are repeated, in turn with all others, until they have taken so long together.
 constexpr int most_repeats = 9;
-constexpr double worth_repeating = 0.3;  // seconds
+constexpr double worth_repeating = 0.5;  // seconds
 
 // Three digits, so that it can be typed; downwards, so that it stays stable.
 double rounded_down(double x) {
@@ -78,7 +79,8 @@ class Bench {
         options_(options),
         reference_(reference),
         progress_(progress),
-        budget_(budget),
+        budget_((1.0 - share_of_repeats) * budget),
+        whole_budget_(budget),
         start_(Clock::now()) {
     options_.energies = false;
   }
@@ -95,7 +97,7 @@ class Bench {
     double cost = 0.0;  // seconds a step, where some were timed
     double before = std::numeric_limits<double>::infinity();
     for (int k = 0; k < family.most; ++k) {
-      if (reference_.by_exponential && setting.tolerance > 0.0 &&
+      if (reference_.by_exponential() && setting.tolerance > 0.0 &&
           setting.tolerance <= 2.0 * rheo::finest_tolerance)
         return;  // the reference itself
       progress_.update(done_++);
@@ -116,6 +118,7 @@ class Bench {
   }
 
   void repeat() {
+    budget_ = whole_budget_;
     for (int round = 1; round < most_repeats; ++round) {
       for (Row& row : result_.rows) {
         progress_.update(done_++);
@@ -127,7 +130,7 @@ class Bench {
     }
     // The first run of several warmed up.
     for (Row& row : result_.rows)
-      if (row.seconds.size() > 2) row.seconds.erase(row.seconds.begin());
+      if (row.seconds.size() > 1) row.seconds.erase(row.seconds.begin());
   }
 
   Rows take() { return std::move(result_); }
@@ -182,7 +185,9 @@ class Bench {
   Outcome run_simulation(const Setting& setting, const std::string& what, double& cost) {
     rheo::Simulation simulation(with(scene_, setting), options_);
     const auto planned = static_cast<double>(simulation.planned_steps());
-    if (cost == 0.0) {
+    if (cost == 0.0 && setting.tolerance > 0.0 && reference_.by_exponential()) {
+      cost = reference_.exponential_seconds / planned;  // at most: that was to a finer tolerance
+    } else if (cost == 0.0) {
       rheo::Simulation probe(with(scene_, setting), options_);
       cost = seconds_per_step(probe);
     }
@@ -223,7 +228,7 @@ class Bench {
   rheo::SimulationOptions options_;
   const Reference& reference_;
   Progress& progress_;
-  double budget_;
+  double budget_, whole_budget_;
   Clock::time_point start_;
   std::int64_t done_ = 0;
   Rows result_;
@@ -231,9 +236,15 @@ class Bench {
 
 }  // namespace
 
+std::string short_number(double x) {
+  std::string text = fmt::format("{:g}", x);
+  if (const std::size_t at = text.find("e-0"); at != std::string::npos) text.erase(at + 2, 1);
+  return text;
+}
+
 std::string knob_of(const Setting& setting) {
-  if (setting.tolerance > 0.0) return fmt::format("--tolerance {:g}", setting.tolerance);
-  return setting.step > 0.0 ? fmt::format("--step {:g}", setting.step) : "--step auto";
+  if (setting.tolerance > 0.0) return "--tolerance " + short_number(setting.tolerance);
+  return setting.step > 0.0 ? "--step " + short_number(setting.step) : "--step auto";
 }
 
 std::string options_of(const Setting& setting) {

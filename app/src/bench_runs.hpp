@@ -22,6 +22,8 @@ struct Setting {
   double tolerance = 0.0;  // 0: the integrator has none
 };
 
+// "1e-6", not "1e-06".
+std::string short_number(double x);
 // As typed: "--integrator rk4 --step 0.001".
 std::string options_of(const Setting& setting);
 // "--step 0.001"

@@ -12,8 +12,9 @@ namespace {
 // The advice keeps clear of what the reference cannot tell.
 constexpr double clear_of_uncertainty = 3.0;
 
-std::string advice_for(double wanted, const std::vector<Row>& rows, const Reference& reference) {
-  const std::string target = fmt::format("for {:.0e} ", wanted);
+std::string advice_for(const char* name, const std::vector<Row>& rows, const Reference& reference) {
+  const double wanted = std::stod(name);
+  const std::string target = fmt::format("for {} ", name);
   if (clear_of_uncertainty * reference.uncertainty > wanted)
     return target +
            fmt::format("nothing can be said (the exact solution is known to {:.1e})", reference.uncertainty);
@@ -77,7 +78,7 @@ std::string advice_of(const std::vector<Row>& rows, const Reference& reference) 
     return "Nothing moves in this scene: any integrator and step will do.";
   if (rows.empty()) return "No advice: none of the runs was possible.";
   std::string advice;
-  for (const double wanted : {1e-3, 1e-6, 1e-9})
+  for (const char* const wanted : {"1e-3", "1e-6", "1e-9"})
     advice += (advice.empty() ? "Of these, " : "; ") + advice_for(wanted, rows, reference);
   return advice + ".";
 }

@@ -155,15 +155,17 @@ TEST_F(Bench, AdvisesTheFastestIntegratorAtItsLeastWorkThatReachesTheError) {
     ASSERT_NE(best, nullptr) << wanted;
     std::ostringstream text;
     text << "for "
-         << (wanted == 1e-3   ? "1e-03"
-             : wanted == 1e-6 ? "1e-06"
-                              : "1e-09")
+         << (wanted == 1e-3   ? "1e-3"
+             : wanted == 1e-6 ? "1e-6"
+                              : "1e-9")
          << " use --integrator " << (*best)["integrator"].get<std::string>();
     if ((*best)["tolerance"].is_number())
       text << " --tolerance " << (*best)["tolerance"].get<double>();
     else
       text << " --step " << (*best)["step_asked"].get<double>();
-    EXPECT_THAT(advice, HasSubstr(text.str()));
+    std::string expected = text.str();
+    if (const std::size_t at = expected.find("e-0"); at != std::string::npos) expected.erase(at + 2, 1);
+    EXPECT_THAT(advice, HasSubstr(expected));
   }
 }
 

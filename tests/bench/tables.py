@@ -62,7 +62,7 @@ def median_and_spread(values):
 
 
 def nanoseconds(records):
-    return median_and_spread([1e9 * r["ns/tri"] for r in records])
+    return median_and_spread([r["ns/tri"] for r in records])
 
 
 def size_name(triangles):
@@ -82,16 +82,21 @@ def by_kernel(found):
 
 NAMES = {
     "step/csr": "textbook RK4, two Eigen products an evaluation (baseline)",
+    "peer/rk4": "SUNDIALS ARKODE, classic RK4, fixed step",
+    "peer/dormand_prince": "SUNDIALS ARKODE, Dormand-Prince, 1e-6 (6 evaluations a step)",
     "step/assembled_horner": "assembled matrices, Horner form",
-    "step/edge": "edge kernel, best instructions",
+    "step/element": "element kernel",
     "step/edge_baseline": "edge kernel, baseline instructions",
     "step/edge_avx2": "edge kernel, AVX2",
     "step/edge_avx512": "edge kernel, AVX-512",
+    "step/edge": "edge kernel, best instructions",
     "step2/edge": "edge kernel, two threads",
-    "step/element": "element kernel",
-    "peer/rk4": "SUNDIALS ARKODE, classic RK4, fixed step",
-    "peer/dormand_prince": "SUNDIALS ARKODE, Dormand-Prince, 1e-6 (a step has 6 evaluations)",
 }
+
+
+def in_order(table):
+    known = list(NAMES)
+    return dict(sorted(table.items(), key=lambda item: known.index(item[0]) if item[0] in known else len(known)))
 
 
 def print_steps(table):
@@ -118,7 +123,7 @@ def print_steps(table):
         if kernel == "step/csr":
             continue
         cells = [
-            f"{nanoseconds(baseline[s])[0] / nanoseconds(row[s])[0]:.1f}" if s in row and s in baseline else ""
+            f"{nanoseconds(baseline[s])[0] / nanoseconds(row[s])[0]:.2g}" if s in row and s in baseline else ""
             for s in sizes
         ]
         print(f"| {NAMES.get(kernel, kernel)} | " + " | ".join(cells) + " |")
@@ -243,6 +248,7 @@ def main():
     peer = bench / "rheo_bench_peer"
     if peer.exists():
         table.update(by_kernel(run_benchmark(peer, f"/({sizes})/", arguments)))
+    table = in_order(table)
     print_steps(table)
     if peer.exists():
         print_peer(table)
