@@ -119,6 +119,8 @@ class Bench {
 
   void repeat() {
     budget_ = whole_budget_;
+    done_ = 0;
+    progress_.begin("repeats", static_cast<std::int64_t>(result_.rows.size()) * (most_repeats - 1));
     for (int round = 1; round < most_repeats; ++round) {
       for (Row& row : result_.rows) {
         progress_.update(done_++);
@@ -268,7 +270,7 @@ Rows bench_runs(const rheo::Scene& scene, const rheo::SimulationOptions& options
   Bench bench(scene, options, reference, budget, progress);
   std::int64_t most = 0;
   for (const Family& family : families) most += family.most;
-  progress.begin("runs", most * most_repeats);
+  progress.begin("runs", most);
   for (const Family& family : families)
     if (!only || *only == family.integrator) bench.sweep(family);
   bench.repeat();

@@ -1,10 +1,9 @@
 // What this machine can do at most: the two ends of a roofline, for the tables to say how near a step comes.
 //
-//   machine/triad/<MB>/<threads>  a = b + s c on three arrays of together so many MB: bytes a second, 24 an
-//   entry
-//                                 (a store into a line that is not in cache reads it first: 32 are moved
-//                                 there)
-//   machine/fma/<simd>            independent fused multiply-adds in registers: flops a second of one core
+//   machine/triad/<MB>/<threads>  a = b + s c on three arrays of together so many MB: bytes a second
+//   machine/fma/<simd>            independent multiply-adds in registers: flops a second of one core
+//
+// The triad counts 24 bytes an entry; where a store reads its cache line first, 32 are moved.
 //
 // Source   J. McCalpin, STREAM; S. Williams, A. Waterman, D. Patterson, "Roofline" (2009)
 
