@@ -32,6 +32,11 @@ struct Reference {
 Reference make_reference(const rheo::Scene& scene, const rheo::SimulationOptions& options, double budget,
                          Progress& progress);
 
+// Where that came by exponential: how far RK4, extrapolated, is from it at a few outputs. In two runs of at
+// most `budget` seconds each.
+void check_reference(Reference& reference, const rheo::Scene& scene, const rheo::SimulationOptions& options,
+                     double budget, Progress& progress);
+
 // Seconds a step of a simulation takes, from some real ones at its beginning; 0 where it ends before.
 // The simulation is of no use afterwards.
 double seconds_per_step(rheo::Simulation& simulation);

@@ -24,6 +24,7 @@ rheo::Scene beam() {
 double difference(const rheo::Scene& scene, app::Reference& reference) {
   app::Progress progress(app::Verbosity::quiet);
   reference = app::make_reference(scene, {}, 10.0, progress);
+  app::check_reference(reference, scene, {}, 5.0, progress);
   app::Trajectory dense{reference.exact.times, rheo::dense_flow(scene, reference.exact.times)};
   return app::run_error(dense, reference.exact);
 }
