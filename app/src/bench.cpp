@@ -35,10 +35,7 @@ rheo::Scene load(const Options& options) {
 
 // Refuses what any run of the scene would refuse, before anything is made.
 void require_runnable(const rheo::Scene& scene, const rheo::SimulationOptions& options) {
-  rheo::Scene any = scene;
-  any.time.integrator = rheo::IntegratorKind::rk4;
-  any.time.step = 0.0;
-  const rheo::Simulation simulation(std::move(any), options);
+  const rheo::Simulation simulation(scene_with(scene, {}), options);
 }
 
 void require_new_file(const std::filesystem::path& file, const Options& options) {

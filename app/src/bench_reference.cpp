@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bench_setting.hpp"
 #include "failure.hpp"
 #include "rheo/dense_flow.hpp"
 #include "sheet_frames.hpp"
@@ -40,19 +41,11 @@ bool has_exponential(const rheo::Scene& scene) {
                                        (scene.fixes.empty() && scene.moves.empty()));
 }
 
-rheo::Scene with(const rheo::Scene& scene, rheo::IntegratorKind kind, double step) {
-  rheo::Scene other = scene;
-  other.time.integrator = kind;
-  other.time.step = step;
-  other.time.where.clear();
-  return other;
-}
-
 // RK4 with `factor` steps in the place of every one that `step` asks for, so that runs of different factors
 // share all their coarse times. Ends early, with fewer states, after so many seconds. nullopt: diverged.
 std::optional<Trajectory> rk4(const rheo::Scene& scene, const rheo::SimulationOptions& options, double step,
                               int factor, const std::vector<double>& times, double seconds) {
-  rheo::Simulation simulation(with(scene, rheo::IntegratorKind::rk4, step), options);
+  rheo::Simulation simulation(scene_with(scene, {rheo::IntegratorKind::rk4, step, 0.0}), options);
   std::vector<double> stops = event_times(scene);
   stops.insert(stops.end(), times.begin(), times.end());
   std::ranges::sort(stops);
@@ -102,7 +95,7 @@ struct Rk4Cost {
 
 Rk4Cost cost_of_rk4(const rheo::Scene& scene, const rheo::SimulationOptions& options) {
   Rk4Cost cost;
-  rheo::Simulation probe(with(scene, rheo::IntegratorKind::rk4, 0.0), options);
+  rheo::Simulation probe(scene_with(scene, {rheo::IntegratorKind::rk4, 0.0, 0.0}), options);
   cost.stable = std::min(probe.stable_step(), scene.time.duration);
   const double steps = static_cast<double>(probe.planned_steps()) * probe.step_bound() / cost.stable;
   cost.seconds = seconds_per_step(probe) * steps;
@@ -177,8 +170,7 @@ void check_by_rk4(Reference& reference, const rheo::Scene& scene, const rheo::Si
 
 void follow_exponential(Reference& reference, const rheo::Scene& scene,
                         const rheo::SimulationOptions& options, double budget) {
-  rheo::Scene fine = with(scene, rheo::IntegratorKind::exponential, 0.0);
-  fine.time.tolerance = rheo::finest_tolerance;
+  rheo::Scene fine = scene_with(scene, {rheo::IntegratorKind::exponential, 0.0, rheo::finest_tolerance});
   {
     rheo::Simulation probe(fine, options);
     const double seconds = seconds_per_step(probe) * static_cast<double>(probe.planned_steps());

@@ -52,15 +52,6 @@ double rounded_down(double x) {
   return std::stod(fmt::format("{:.2e}", std::floor(x / unit * (1.0 + 1e-12)) * unit));
 }
 
-rheo::Scene with(const rheo::Scene& scene, const Setting& setting) {
-  rheo::Scene other = scene;
-  other.time.integrator = setting.integrator;
-  other.time.step = setting.step;
-  if (setting.tolerance > 0.0) other.time.tolerance = setting.tolerance;
-  other.time.where.clear();
-  return other;
-}
-
 std::string first_line(std::string text) {
   return text.substr(0, text.find('\n'));
 }
@@ -126,7 +117,7 @@ class Bench {
         progress_.update(done_++);
         const double once = row.seconds.front();
         if (once * round > worth_repeating || once > share_of_rest * left()) continue;
-        rheo::Simulation simulation(with(scene_, row.setting), options_);
+        rheo::Simulation simulation(scene_with(scene_, row.setting), options_);
         if (const auto seconds = timed_run(simulation)) row.seconds.push_back(*seconds);
       }
     }
@@ -151,7 +142,7 @@ class Bench {
     rheo::SimulationOptions any_step = options_;
     any_step.allow_unstable = true;
     try {
-      const rheo::Simulation probe(with(scene_, {integrator, scene_.time.duration, 0.0}), any_step);
+      const rheo::Simulation probe(scene_with(scene_, {integrator, scene_.time.duration, 0.0}), any_step);
       const double limit = probe.stable_step();
       if (limit == 0.0)
         leave_out(name_of(integrator), "no step of it is stable here, some vibrations are not damped");
@@ -185,12 +176,12 @@ class Bench {
   }
 
   Outcome run_simulation(const Setting& setting, const std::string& what, double& cost) {
-    rheo::Simulation simulation(with(scene_, setting), options_);
+    rheo::Simulation simulation(scene_with(scene_, setting), options_);
     const auto planned = static_cast<double>(simulation.planned_steps());
     if (cost == 0.0 && setting.tolerance > 0.0 && reference_.by_exponential()) {
       cost = reference_.exponential_seconds / planned;  // at most: that was to a finer tolerance
     } else if (cost == 0.0) {
-      rheo::Simulation probe(with(scene_, setting), options_);
+      rheo::Simulation probe(scene_with(scene_, setting), options_);
       cost = seconds_per_step(probe);
     }
     const double most = share_of_rest * left();
@@ -237,21 +228,6 @@ class Bench {
 };
 
 }  // namespace
-
-std::string short_number(double x) {
-  std::string text = fmt::format("{:g}", x);
-  if (const std::size_t at = text.find("e-0"); at != std::string::npos) text.erase(at + 2, 1);
-  return text;
-}
-
-std::string knob_of(const Setting& setting) {
-  if (setting.tolerance > 0.0) return "--tolerance " + short_number(setting.tolerance);
-  return setting.step > 0.0 ? "--step " + short_number(setting.step) : "--step auto";
-}
-
-std::string options_of(const Setting& setting) {
-  return fmt::format("--integrator {} {}", name_of(setting.integrator), knob_of(setting));
-}
 
 double Row::median() const {
   std::vector<double> sorted = seconds;

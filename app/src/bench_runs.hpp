@@ -11,23 +11,11 @@
 #include <vector>
 
 #include "bench_reference.hpp"
+#include "bench_setting.hpp"
 #include "progress.hpp"
 #include "rheo/simulation.hpp"
 
 namespace app {
-
-struct Setting {
-  rheo::IntegratorKind integrator = rheo::IntegratorKind::rk4;
-  double step = 0.0;       // [s]; 0: auto
-  double tolerance = 0.0;  // 0: the integrator has none
-};
-
-// "1e-6", not "1e-06".
-std::string short_number(double x);
-// As typed: "--integrator rk4 --step 0.001".
-std::string options_of(const Setting& setting);
-// "--step 0.001"
-std::string knob_of(const Setting& setting);
 
 struct Row {
   Setting setting;
