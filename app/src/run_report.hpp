@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "bench_runs.hpp"
 #include "command_line.hpp"
 #include "failure.hpp"
 #include "phase_clock.hpp"
@@ -35,6 +36,9 @@ struct Fingerprint {
 
 Fingerprint fingerprint(const std::string& path);
 
+// The scene's file as it is; the reader has accepted it a moment ago. Errors: Failure(file)
+std::string file_text(const std::filesystem::path& path);
+
 struct RunReport {
   std::string scene_text;
   std::string renderer;  // empty: nothing was drawn
@@ -46,6 +50,21 @@ struct RunReport {
   Seconds seconds;
   std::optional<rheo::Divergence> divergence;
 };
+
+// Of bench: exact (how errors were measured), runs (all that the table shows, every run's seconds), left_out
+// and advice take the place of settings, outputs, counters and seconds.
+struct BenchReport {
+  std::string scene_text;
+  std::vector<Fingerprint> read_files;
+  std::vector<std::string> files;
+  std::vector<std::string> notes;
+  Reference reference;
+  Rows runs;
+  std::string advice;
+};
+
+void write_bench_report(const std::filesystem::path& file, const Options& options, const rheo::Scene& scene,
+                        const BenchReport& report);
 
 void write_run_report(const std::filesystem::path& file, const Options& options,
                       const rheo::Simulation& simulation, const RunReport& report);

@@ -11,22 +11,11 @@
 #include "render/mesh_picture.hpp"
 #include "render/plot.hpp"
 #include "render/png.hpp"
+#include "render_backend.hpp"
 #include "sheet_frames.hpp"
 
 namespace app {
 namespace {
-
-render::Backend backend_of(DrawBackend backend) {
-  switch (backend) {
-    case DrawBackend::osmesa:
-      return render::Backend::osmesa;
-    case DrawBackend::egl:
-      return render::Backend::egl;
-    case DrawBackend::automatic:
-      break;
-  }
-  return render::Backend::automatic;
-}
 
 struct ScalarText {
   const char* name;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "rheo/deformation.hpp"
+#include "rheo/dense_flow.hpp"
 #include "rheo/error.hpp"
 #include "rheo/integrator.hpp"
 #include "rheo/material.hpp"
