@@ -10,6 +10,7 @@
 #include "assembled_body.hpp"
 #include "energy_book.hpp"
 #include "kernels/edge_body.hpp"
+#include "kernels/element_body.hpp"
 #include "kernels/flush_denormals.hpp"
 #include "model.hpp"
 #include "rheo/error.hpp"
@@ -39,13 +40,15 @@ std::int64_t steps_in(double length, double bound) {
 
 // The fastest kernel that the scene's mass and constraints allow, unless one is asked for.
 Assembly assembly_for(const Scene& scene, Kernel kernel) {
-  const bool edges = scene.material.mass == Mass::lumped && !has_columns(scene);
-  if (kernel == Kernel::edge && !edges) {
+  const bool by_nodes = scene.material.mass == Mass::lumped && !has_columns(scene);
+  if ((kernel == Kernel::edge || kernel == Kernel::element) && !by_nodes) {
     throw Error(Error::Kind::input,
-                "kernel edge needs mass = \"lumped\" and constraints = \"auto\" without [[constraint]]: use "
-                "auto or csr");
+                fmt::format("kernel {} needs mass = \"lumped\" and constraints = \"auto\" without "
+                            "[[constraint]]: use auto or csr",
+                            kernel == Kernel::edge ? "edge" : "element"));
   }
-  return edges && kernel != Kernel::csr ? Assembly::edges : Assembly::matrices;
+  if (kernel == Kernel::element) return Assembly::elements;
+  return by_nodes && kernel != Kernel::csr ? Assembly::edges : Assembly::matrices;
 }
 
 }  // namespace
@@ -141,6 +144,7 @@ struct Simulation::Impl {
 
   std::unique_ptr<Body> make_body(int threads) const {
     if (model.edges) return std::make_unique<EdgeBody>(model, *model.edges, threads);
+    if (model.elements) return std::make_unique<ElementBody>(model, *model.elements, threads);
     return std::make_unique<AssembledBody>(model, scene.time.baumgarte);
   }
 

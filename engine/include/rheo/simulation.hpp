@@ -65,14 +65,15 @@ struct Counters {
 enum class Kernel {
   automatic,  // edge where the scene allows it, else csr
   csr,        // assembled matrices: every scene; the reference
-  edge        // by edges, vectorised: lumped mass, fixed and moved nodes eliminated
+  edge,       // by edges, vectorised: lumped mass, fixed and moved nodes eliminated
+  element     // by triangles, vectorised: where edge goes
 };
 
 struct SimulationOptions {
   bool allow_unstable = false;  // run a step beyond the stable limit instead of refusing it
   Kernel kernel = Kernel::automatic;
   bool energies = true;  // without: dissipated and work are not known (NaN), and a step costs less
-  int threads = 0;       // of the edge kernel; 0: as many as pay. The result does not depend on it.
+  int threads = 0;       // of the edge and element kernels; 0: as many as pay. The result does not depend on it.
 };
 
 class Simulation {
@@ -96,7 +97,7 @@ class Simulation {
   // rest too.
   std::int64_t planned_steps() const;
 
-  // The kernel in use: "csr" or "edge".
+  // The kernel in use: "csr", "edge" or "element".
   std::string_view kernel() const;
   // How many threads its steps have.
   int threads() const;
