@@ -9,6 +9,7 @@
 #include "assembled_body.hpp"
 #include "kernels/edge_body.hpp"
 #include "kernels/element_body.hpp"
+#include "kernels/node_order.hpp"
 #include "schedule.hpp"
 #include "support/event_scenes.hpp"
 #include "support/kernel_cases.hpp"
@@ -180,6 +181,17 @@ TEST(ElementRuns, ThreadsDoNotChangeTheResult) {
   Simulation one(scene, {.kernel = Kernel::element, .threads = 1});
   EXPECT_EQ(one.threads(), 1);
   ASSERT_FALSE(one.advance(0.02));
+  // Several blocks: the sweeps of a step follow each other through the mesh.
+  ASSERT_GE(ElementForm(scene.mesh, {{scene.material}, {}}).blocks(256).size(), 12u);
+  Simulation csr(scene, {.kernel = Kernel::csr});
+  ASSERT_FALSE(csr.advance(0.02));
+  const auto near = [](std::span<const double> a, std::span<const double> b) {
+    return difference({a.begin(), a.end()}, {b.begin(), b.end()}, 0, a.size());
+  };
+  EXPECT_LT(near(csr.u(), one.u()), 1e-12);
+  EXPECT_LT(near(csr.v(), one.v()), 1e-12);
+  EXPECT_LT(near(csr.w_lambda(), one.w_lambda()), 1e-12);
+  EXPECT_LT(near(csr.w_mu(), one.w_mu()), 1e-12);
   for (const int threads : {2, 3, 4}) {
     Simulation several(scene, {.kernel = Kernel::element, .threads = threads});
     EXPECT_EQ(several.threads(), threads);
@@ -193,6 +205,31 @@ TEST(ElementRuns, ThreadsDoNotChangeTheResult) {
     EXPECT_EQ(one.energies().stored, several.energies().stored);
     EXPECT_EQ(one.energies().dissipated, several.energies().dissipated);
     EXPECT_EQ(one.energies().work, several.energies().work);
+  }
+}
+
+TEST(NodeOrder, HasEveryNodeOnceAndNeighboursNear) {
+  // Two pieces, numbered in turns.
+  Mesh mesh = rectangle({1, 1}, 20, 20);
+  const int n = mesh.node_count();
+  Mesh both;
+  for (const Vec2& p : mesh.points) both.points.insert(both.points.end(), {p, {p.x + 2, p.y}});
+  for (const Triangle& t : mesh.triangles) {
+    both.triangles.push_back({2 * t[0], 2 * t[1], 2 * t[2]});
+    both.triangles.push_back({2 * t[0] + 1, 2 * t[1] + 1, 2 * t[2] + 1});
+  }
+  prepare(both);
+  const std::vector<std::int32_t> order = narrow_order(both);
+  std::vector<int> place(2 * n, -1);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    EXPECT_EQ(place[order[k]], -1);
+    place[order[k]] = static_cast<int>(k);
+  }
+  ASSERT_EQ(order.size(), both.points.size());
+  for (const Triangle& t : both.triangles) {
+    const auto [low, high] = std::minmax({place[t[0]], place[t[1]], place[t[2]]});
+    // A level of the breadth-first order is a diagonal of the square: 20 nodes, or both ends of two of them.
+    EXPECT_LE(high - low, 41);
   }
 }
 
