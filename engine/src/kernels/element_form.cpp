@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "kernels/node_order.hpp"
 
@@ -44,67 +45,85 @@ std::array<double, 2> gradient_of(const Mesh& mesh, const Triangle& t, std::size
   return {j.y - l.y, l.x - j.x};
 }
 
+std::int32_t region_of(const Regions& regions, std::int32_t triangle) {
+  return regions.of_triangle.empty() ? 0 : regions.of_triangle[static_cast<std::size_t>(triangle)];
+}
+
+// By node of the mesh: the regions that touch it, rising.
+using RegionsAround = std::vector<std::vector<std::int32_t>>;
+
+RegionsAround regions_around(const Mesh& mesh, const Regions& regions) {
+  RegionsAround around(mesh.points.size());
+  for (std::int32_t e = 0; e < mesh.triangle_count(); ++e) {
+    const std::int32_t region = region_of(regions, e);
+    for (const int node : mesh.triangles[e]) {
+      auto& list = around[node];
+      const auto at = std::lower_bound(list.begin(), list.end(), region);
+      if (at == list.end() || *at != region) list.insert(at, region);
+    }
+  }
+  return around;
+}
+
+// Nodes of one region side by side, inside short windows: longer runs, and still near their neighbours.
+void group_by_region(std::vector<std::int32_t>& order, const RegionsAround& around) {
+  constexpr std::size_t window = 32;  // nodes
+  const auto kind = [&](std::int32_t node) { return std::pair(around[node].size(), around[node].front()); };
+  for (std::size_t first = 0; first < order.size(); first += window) {
+    const std::size_t last = std::min(order.size(), first + window);
+    std::stable_sort(order.begin() + static_cast<std::ptrdiff_t>(first),
+                     order.begin() + static_cast<std::ptrdiff_t>(last),
+                     [&](std::int32_t a, std::int32_t b) { return kind(a) < kind(b); });
+  }
+}
+
 }  // namespace
 
 ElementForm::ElementForm(const Mesh& mesh, const Regions& regions)
     : nodes(mesh.node_count()), materials(regions.materials), mesh_node(narrow_order(mesh)) {
-  const auto n = static_cast<std::size_t>(nodes);
-  const auto region_of = [&](std::int32_t e) {
-    return regions.of_triangle.empty() ? 0 : regions.of_triangle[static_cast<std::size_t>(e)];
-  };
   assert(!materials.empty());
   assert(regions.of_triangle.empty() || regions.of_triangle.size() == mesh.triangles.size());
+  const RegionsAround around = regions_around(mesh, regions);
+  group_by_region(mesh_node, around);
+  const auto n = static_cast<std::size_t>(nodes);
   kernel_node.resize(n);
   for (std::size_t k = 0; k < n; ++k) kernel_node[mesh_node[k]] = static_cast<std::int32_t>(k);
-  std::vector<Sorted> sorted = sorted_triangles(mesh, kernel_node);
-  for (const Sorted& t : sorted) bandwidth = std::max(bandwidth, t.nodes[2] - t.nodes[0]);
 
-  // Slots: the regions around each node.
-  std::vector<std::vector<std::int32_t>> more(materials.size() > 1 ? n : 0);
-  node_mass.assign(n, 0.0);
-  for (std::int32_t e = 0; e < mesh.triangle_count(); ++e) {
-    const Material& material = materials[region_of(e)];
-    const double mass = material.density * mesh.thickness * signed_area(mesh, e);
-    for (int node : mesh.triangles[e]) {
-      const std::int32_t k = kernel_node[node];
-      node_mass[k] += mass / 3;
-      if (more.empty()) continue;
-      auto& list = more[k];
-      const auto at = std::lower_bound(list.begin(), list.end(), region_of(e));
-      if (at == list.end() || *at != region_of(e)) list.insert(at, region_of(e));
-    }
-  }
   slot_begin.reserve(n + 1);
   for (std::int32_t k = 0; k < nodes; ++k) {
-    slot_begin.push_back(slots);
-    const std::size_t count = more.empty() ? 1 : more[k].size();
-    for (std::size_t s = 0; s < count; ++s) {
-      slot_region.push_back(more.empty() ? 0 : more[k][s]);
-      slot_node.push_back(k);
-    }
-    const std::int32_t region = slot_region.back();
-    if (runs.empty() || count > 1 || runs.back().slots_a_node > 1 || runs.back().region != region)
-      runs.push_back({k, k, slots, static_cast<std::int32_t>(count), region});
+    const std::vector<std::int32_t>& here = around[mesh_node[k]];
+    const auto count = static_cast<std::int32_t>(here.size());
+    if (runs.empty() || count > 1 || runs.back().slots_a_node > 1 || runs.back().region != here.front())
+      runs.push_back({k, k, slots, count, here.front()});
     ++runs.back().last;
-    slots += static_cast<int>(count);
+    slot_begin.push_back(slots);
+    slot_region.insert(slot_region.end(), here.begin(), here.end());
+    slot_node.insert(slot_node.end(), here.size(), k);
+    slots += count;
   }
   slot_begin.push_back(slots);
 
+  node_mass.assign(n, 0.0);
+  for (std::int32_t e = 0; e < mesh.triangle_count(); ++e) {
+    const double mass = materials[region_of(regions, e)].density * mesh.thickness * signed_area(mesh, e);
+    for (const int node : mesh.triangles[e]) node_mass[kernel_node[node]] += mass / 3;
+  }
+
+  const std::vector<Sorted> sorted = sorted_triangles(mesh, kernel_node);
   gradient.reserve(sorted.size());
   offset.reserve(sorted.size());
-  const auto slot_of = [&](std::int32_t node, std::int32_t region) {
-    std::int32_t slot = slot_begin[node];
-    while (slot_region[slot] != region) ++slot;
-    return slot;
-  };
   for (const Sorted& s : sorted) {
+    bandwidth = std::max(bandwidth, s.nodes[2] - s.nodes[0]);
     const Triangle& t = mesh.triangles[s.triangle];
     const double scale = std::sqrt(mesh.thickness / (4.0 * signed_area(mesh, s.triangle)));
     const auto q1 = gradient_of(mesh, t, 1), q2 = gradient_of(mesh, t, 2);
     gradient.push_back({scale * q1[0], scale * q1[1], scale * q2[0], scale * q2[1]});
     std::array<std::uint32_t, 3> corners{};
-    for (std::size_t k = 0; k < 3; ++k)
-      corners[k] = 4 * static_cast<std::uint32_t>(slot_of(kernel_node[t[k]], region_of(s.triangle)));
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::int32_t slot = slot_begin[kernel_node[t[k]]];
+      while (slot_region[slot] != region_of(regions, s.triangle)) ++slot;
+      corners[k] = 4 * static_cast<std::uint32_t>(slot);
+    }
     offset.push_back(corners);
   }
 }

@@ -14,8 +14,8 @@
 // has one pair (w_lambda, w_mu), a slot, for each region that touches it, and its force is the sum over its
 // slots. With one region slots are nodes.
 //
-// Nodes are renumbered (node_order.hpp) and triangles sorted by their nodes: what a stretch of triangles
-// reads and adds to lies near each other in memory.
+// Nodes are renumbered (node_order.hpp; then by region inside short stretches) and triangles sorted by their
+// nodes: what a stretch of triangles reads and adds to lies near each other in memory.
 //
 // Source   Hirai and Tomokuni, eq. (2), (3), by triangle instead of assembled
 // Units    b, c [sqrt(m)]: F in N for w in Pa m
