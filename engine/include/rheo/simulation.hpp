@@ -73,7 +73,7 @@ struct SimulationOptions {
   bool allow_unstable = false;  // run a step beyond the stable limit instead of refusing it
   Kernel kernel = Kernel::automatic;
   bool energies = true;  // without: dissipated and work are not known (NaN), and a step costs less
-  int threads = 0;       // of the edge and element kernels; 0: as many as pay. The result does not depend on it.
+  int threads = 0;       // of edge and element; 0: as many as pay. The result does not depend on it.
 };
 
 class Simulation {
