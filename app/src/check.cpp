@@ -159,6 +159,9 @@ void print_steps(const rheo::Simulation& simulation, rheo::IntegratorKind integr
   row("integrator", "{}", name_of(integrator));
   row("kernel", "{}", simulation.kernel());
   if (integrator == rheo::IntegratorKind::exponential) row("tolerance", "{:g}", time.tolerance);
+  if (simulation.factor_bytes() > 0)
+    row("factor", "{:.3g} MB for each step size in use",
+        static_cast<double>(simulation.factor_bytes()) / 1e6);
   if (verdict == Verdict::no_step) {
     row("step", "none: no step of euler is stable here, some vibrations are not damped");
   } else if (std::isinf(simulation.step_bound())) {
@@ -189,8 +192,9 @@ Cost measure(rheo::Simulation& simulation) {
   constexpr double enough_seconds = 0.1;
   constexpr std::int64_t chunk = 16, few = 48;
   const double duration = simulation.scene().time.duration;
-  const bool exponential = simulation.scene().time.integrator == rheo::IntegratorKind::exponential;
-  const double step = exponential
+  // As in a run, from output to output at most.
+  const bool takes_long_steps = std::isinf(simulation.stable_step());
+  const double step = takes_long_steps
                           ? std::min(simulation.step_bound(), 1.0 / simulation.scene().time.frame_rate)
                           : simulation.step_bound();
   // The first step pays for cold memory; it is not counted.
@@ -200,8 +204,7 @@ Cost measure(rheo::Simulation& simulation) {
   const std::int64_t before = simulation.counters().steps;
   const Clock::time_point start = Clock::now();
   while (simulation.time() < duration) {
-    // Exponential steps are as long as they may be: as in a run, from output to output at most.
-    const double t = simulation.time() + (exponential ? step : static_cast<double>(chunk) * step);
+    const double t = simulation.time() + (takes_long_steps ? step : static_cast<double>(chunk) * step);
     cost.divergence = simulation.advance(std::min(t, duration));
     if (cost.divergence) return cost;
     cost.steps = simulation.counters().steps - before;

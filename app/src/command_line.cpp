@@ -49,14 +49,16 @@ struct Texts {
 
 void add_time_options(CLI::App& command, Texts& texts) {
   const char* group = "Time (default: as the scene says)";
-  command.add_option("--integrator", texts.integrator, "rk4, euler or exponential; a scene's default is rk4")
+  command
+      .add_option("--integrator", texts.integrator,
+                  "rk4, euler, exponential or implicit (stiff bodies); a scene's default is\nrk4")
       ->type_name("NAME")
       ->group(group);
   command
       .add_option("--step", texts.step,
                   "largest step, seconds; every interval between events and outputs is\n"
                   "divided into equal steps. auto, a scene's default: a quarter of the\n"
-                  "stable limit; exponential: one step an interval")
+                  "stable limit; exponential, implicit: one step an interval")
       ->type_name("NUMBER|auto")
       ->group(group);
   command
@@ -78,8 +80,8 @@ void add_time_options(CLI::App& command, Texts& texts) {
   command
       .add_option("--kernel", texts.kernel,
                   "way to the forces: csr (assembled matrices), edge or element (by edges or\n"
-                  "triangles, vectorised; lumped mass, fixed and moved nodes only) or auto,\n"
-                  "the default: the fastest that the scene allows")
+                  "triangles, vectorised; lumped mass, fixed and moved nodes only, not\n"
+                  "implicit) or auto, the default: the fastest that the scene allows")
       ->type_name("NAME")
       ->group(group);
   command

@@ -38,7 +38,8 @@ using Choices = std::vector<std::pair<std::string, Value>>;
 const Choices<rheo::IntegratorKind>& integrators() {
   static const Choices<rheo::IntegratorKind> all{{"rk4", rheo::IntegratorKind::rk4},
                                                  {"euler", rheo::IntegratorKind::euler},
-                                                 {"exponential", rheo::IntegratorKind::exponential}};
+                                                 {"exponential", rheo::IntegratorKind::exponential},
+                                                 {"implicit", rheo::IntegratorKind::implicit}};
   return all;
 }
 

@@ -85,6 +85,11 @@ std::string divergence_text(const rheo::Divergence& divergence, const rheo::Simu
   if (stable <= 0.0)
     return fmt::format("{}: no step of {} is stable for this scene, {:.4g} s was used: use --integrator rk4",
                        where, name_of(time.integrator), used);
+  if (time.integrator == rheo::IntegratorKind::implicit)
+    return fmt::format(
+        "{}: the factor for implicit steps of {:.4g} s has too few correct digits: take smaller ones with "
+        "--step, and check the scene's loads and motions",
+        where, simulation.largest_step());
   if (std::isinf(stable))
     return fmt::format(
         "{}: {} could not reach its tolerance of {:g}: check the scene's loads and motions, or try "

@@ -65,7 +65,7 @@ void AssembledBody::evaluate(std::span<const double> x, const Forcing& forcing, 
   for (const HeldDof& h : interval_->eliminated) {
     double a = 0.0;
     if (interval_->moving) {
-      for (int k = 0; k < 4; ++k) {
+      for (int k = 0; k < 4; ++k) {  // b'' is a cubic
         if (forcing.weight[k] != 0.0) a += forcing.weight[k] * prescribed(h, forcing.t, 2 + k);
       }
     }
@@ -76,15 +76,8 @@ void AssembledBody::evaluate(std::span<const double> x, const Forcing& forcing, 
   const double* u = x.data() + layout.u();
   const double* v = x.data() + layout.v();
   for (std::size_t j = 0; j < solver.columns().size(); ++j) {
-    double b = 0.0;
-    for (int k = 0; k < 4; ++k) {
-      if (forcing.weight[k] == 0.0) continue;
-      const Column& column = solver.columns()[j];
-      b += forcing.weight[k] *
-           (column_value(column, forcing.t, 2 + k) + 2 * omega_ * column_value(column, forcing.t, 1 + k) +
-            omega_ * omega_ * column_value(column, forcing.t, k));
-    }
-    target_[j] = b - 2 * omega_ * solver.row_times(j, v) - omega_ * omega_ * solver.row_times(j, u);
+    target_[j] = column_forcing(solver.columns()[j], forcing) - 2 * omega_ * solver.row_times(j, v) -
+                 omega_ * omega_ * solver.row_times(j, u);
   }
   solver.solve(rhs_, result.acceleration, target_, result.multipliers);
   if (model_.material.mass == Mass::consistent) ++counters_.mass_solves;
@@ -92,18 +85,22 @@ void AssembledBody::evaluate(std::span<const double> x, const Forcing& forcing, 
 }
 
 void AssembledBody::fma(double h, std::span<const double> x, std::span<const double> base,
-                        const Forcing& forcing, std::span<double> out, Result) {
+                        const Forcing& forcing, std::span<double> out, Result result) {
   evaluated_ = false;  // the caller is about to change the state
   evaluate(x, forcing, work_);
   const Layout& layout = model_.layout;
   const Material& material = model_.material;
   const std::size_t part = layout.part;
   const double* v = x.data() + layout.v();
-  for (std::size_t i = 0; i < part; ++i) {
-    out[layout.u() + i] = base[layout.u() + i] + h * v[i];
-    out[layout.v() + i] = base[layout.v() + i] + h * work_.acceleration[i];
+  // Only Baumgarte's terms feed on u.
+  if (result == Result::step || !interval_->solver->columns().empty()) {
+    ++counters_.displacement_updates;
+    for (std::size_t i = 0; i < part; ++i) out[layout.u() + i] = base[layout.u() + i] + h * v[i];
   }
+  for (std::size_t i = 0; i < part; ++i)
+    out[layout.v() + i] = base[layout.v() + i] + h * work_.acceleration[i];
   const auto branch = [&](std::size_t offset, double ela, double decay) {
+    ++counters_.branch_updates;
     const double* w = x.data() + offset;
     for (std::size_t i = 0; i < part; ++i)
       out[offset + i] = base[offset + i] + h * (ela * v[i] - decay * w[i]);

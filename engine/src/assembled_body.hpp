@@ -10,7 +10,7 @@
 
 namespace rheo {
 
-class AssembledBody final : public Body {
+class AssembledBody : public Body {
  public:
   AssembledBody(const Model& model, double omega);
 

@@ -17,6 +17,18 @@ double Body::column_value(const Column& column, double t, int derivative) const 
   return derivative == 0 ? column.value : 0.0;
 }
 
+double Body::column_forcing(const Column& column, const Forcing& forcing) const {
+  double b = 0.0;
+  for (std::size_t k = 0; k < forcing.weight.size(); ++k) {
+    const int order = static_cast<int>(k);
+    if (forcing.weight[k] == 0.0) continue;
+    b += forcing.weight[k] * (column_value(column, forcing.t, 2 + order) +
+                              2 * omega_ * column_value(column, forcing.t, 1 + order) +
+                              omega_ * omega_ * column_value(column, forcing.t, order));
+  }
+  return b;
+}
+
 Vector Body::external_force(const Forcing& forcing) const {
   Vector force = forcing.weight[0] * interval_->force;
   if (interval_->force_rate.size() > 0) {

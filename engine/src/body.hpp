@@ -16,6 +16,7 @@
 #include <memory>
 #include <vector>
 
+#include "aligned_vector.hpp"
 #include "constraints.hpp"
 #include "model.hpp"
 #include "motion.hpp"
@@ -56,6 +57,8 @@ class Body : public LinearOperator {
 
   virtual std::string_view kernel() const = 0;
   virtual int threads() const { return 1; }
+  // Of the implicit integrator's factor for one step size [bytes].
+  virtual std::size_t factor_bytes() const { return 0; }
 
   // From and to the mesh's order.
   virtual void load(std::span<const double> y) = 0;
@@ -83,6 +86,8 @@ class Body : public LinearOperator {
   double prescribed(const HeldDof& held, double t, int derivative) const;
   // b and its derivatives of a general constraint.
   double column_value(const Column& column, double t, int derivative) const;
+  // b'' + 2 omega b' + omega^2 b of a general constraint, as the operator's forcing.
+  double column_forcing(const Column& column, const Forcing& forcing) const;
 
   Counters& counters() { return counters_; }
 
@@ -93,7 +98,7 @@ class Body : public LinearOperator {
   double omega_;
   const Interval* interval_ = nullptr;
   const Vector* base_ = nullptr;
-  std::vector<double> state_;
+  AlignedVector state_;
   Counters counters_;
 };
 

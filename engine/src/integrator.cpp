@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cassert>
 
+#include "aligned_vector.hpp"
 #include "exponential.hpp"
+#include "implicit.hpp"
 
 namespace rheo {
 namespace {
@@ -70,7 +72,7 @@ class Rk4 final : public Integrator {
   explicit Rk4(std::size_t size) : a_(size), b_(size) {}
 
  private:
-  std::vector<double> a_, b_;
+  AlignedVector a_, b_;
 };
 
 }  // namespace
@@ -82,6 +84,8 @@ std::unique_ptr<Integrator> make_integrator(IntegratorKind kind, std::size_t siz
       return std::make_unique<Euler>(size);
     case IntegratorKind::exponential:
       return std::make_unique<Exponential>(size, settings);
+    case IntegratorKind::implicit:
+      return std::make_unique<Implicit>(size);
     case IntegratorKind::rk4:
       break;
   }

@@ -15,6 +15,7 @@
 #include "model.hpp"
 #include "rheo/error.hpp"
 #include "schedule.hpp"
+#include "shifted_body.hpp"
 #include "timeline.hpp"
 
 namespace rheo {
@@ -40,12 +41,21 @@ std::int64_t steps_in(double length, double bound) {
 
 // The fastest kernel that the scene's mass and constraints allow, unless one is asked for.
 Assembly assembly_for(const Scene& scene, Kernel kernel) {
-  const bool by_nodes = scene.material.mass == Mass::lumped && !has_columns(scene);
-  if ((kernel == Kernel::edge || kernel == Kernel::element) && !by_nodes) {
+  const bool implicit = scene.time.integrator == IntegratorKind::implicit;
+  const bool asked = kernel == Kernel::edge || kernel == Kernel::element;
+  const char* name = kernel == Kernel::edge ? "edge" : "element";
+  if (asked && implicit) {
+    throw Error(
+        Error::Kind::input,
+        fmt::format("kernel {} has no matrices, which integrator = \"implicit\" factors: use auto or csr",
+                    name));
+  }
+  const bool by_nodes = scene.material.mass == Mass::lumped && !has_columns(scene) && !implicit;
+  if (asked && !by_nodes) {
     throw Error(Error::Kind::input,
                 fmt::format("kernel {} needs mass = \"lumped\" and constraints = \"auto\" without "
                             "[[constraint]]: use auto or csr",
-                            kernel == Kernel::edge ? "edge" : "element"));
+                            name));
   }
   if (kernel == Kernel::element) return Assembly::elements;
   return by_nodes && kernel != Kernel::csr ? Assembly::edges : Assembly::matrices;
@@ -81,6 +91,9 @@ struct Simulation::Impl {
   }
 
   bool exponential() const { return scene.time.integrator == IntegratorKind::exponential; }
+  bool implicit() const { return scene.time.integrator == IntegratorKind::implicit; }
+  // No stable limit: steps go from event to event and output to output, too long for a quadrature.
+  bool takes_long_steps() const { return exponential() || implicit(); }
 
   // The tolerance is that of the run: errors of its steps add up at worst.
   ExponentialSettings exponential_settings() const {
@@ -88,7 +101,7 @@ struct Simulation::Impl {
     if (exponential() && has_columns(scene)) {
       throw Error(Error::Kind::input,
                   "integrator = \"exponential\" needs constraints = \"auto\" without [[constraint]]: use "
-                  "\"rk4\"");
+                  "\"rk4\" or \"implicit\"");
     }
     const double rate =
         settings.step > 0.0 ? std::max(settings.frame_rate, 1.0 / settings.step) : settings.frame_rate;
@@ -99,17 +112,17 @@ struct Simulation::Impl {
         settings.tolerance / steps};
   }
 
-  // Whether the quadrature over a step gives all of the work: steps of the exponential integrator are long,
-  // and the loads' part alone, by parts, is exact for constant loads.
+  // Whether the quadrature over a step gives all of the work: where steps are long,
+  // the loads' part alone, by parts, is exact for constant loads.
   bool books_work() const {
-    return !exponential() ||
+    return !takes_long_steps() ||
            (scene.moves.empty() && std::all_of(scene.tractions.begin(), scene.tractions.end(),
                                                [](const Traction& t) { return t.keys.size() == 1; }));
   }
   // Likewise what is dissipated: nothing, or unknown.
   bool books_dissipated() const {
-    return !exponential() || ((!spectrum.lambda_on || spectrum.lambda_rate == 0.0) &&
-                              (!spectrum.mu_on || spectrum.mu_rate == 0.0));
+    return !takes_long_steps() || ((!spectrum.lambda_on || spectrum.lambda_rate == 0.0) &&
+                                   (!spectrum.mu_on || spectrum.mu_rate == 0.0));
   }
 
   void choose_step(const SimulationOptions& options) {
@@ -131,8 +144,7 @@ struct Simulation::Impl {
           stable_step_is_bound(spectrum, settings.integrator) ? "step that is surely stable" : "stable step",
           name, limit));
     }
-    // The exponential integrator goes from event to event and output to output.
-    bound = given ? settings.step : exponential() ? limit : auto_fraction * limit;
+    bound = given ? settings.step : takes_long_steps() ? limit : auto_fraction * limit;
     if (!(settings.duration / bound < most_steps)) {
       refuse_step(
           fmt::format("step = {}: {:g} s needs {:.2g} steps for the duration of {:g} s, at most {:g} can be "
@@ -145,6 +157,10 @@ struct Simulation::Impl {
   std::unique_ptr<Body> make_body(int threads) const {
     if (model.edges) return std::make_unique<EdgeBody>(model, *model.edges, threads);
     if (model.elements) return std::make_unique<ElementBody>(model, *model.elements, threads);
+    if (implicit()) {
+      require_few_general_constraints(scene);
+      return std::make_unique<ShiftedBody>(model, scene.time.baumgarte);
+    }
     return std::make_unique<AssembledBody>(model, scene.time.baumgarte);
   }
 
@@ -475,6 +491,9 @@ std::string_view Simulation::kernel() const {
 }
 int Simulation::threads() const {
   return impl_->body->threads();
+}
+std::size_t Simulation::factor_bytes() const {
+  return impl_->body->factor_bytes();
 }
 
 std::span<const double> Simulation::reaction() {

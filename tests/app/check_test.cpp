@@ -113,6 +113,17 @@ TEST_F(Check, KnowsNoStableLimitOfTheExponentialIntegrator) {
   EXPECT_THAT(row(finished.out, "cost"), HasSubstr("forecast"));
 }
 
+TEST_F(Check, TellsTheImplicitIntegratorsFactor) {
+  write("beam.toml", small_beam());
+  const Finished finished = rheo({"check", "beam.toml", "--integrator", "implicit", "--frame-rate", "10"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_EQ(row(finished.out, "integrator"), "implicit");
+  EXPECT_EQ(row(finished.out, "kernel"), "csr");
+  EXPECT_EQ(row(finished.out, "step"), "auto: one an interval between events and outputs");
+  EXPECT_THAT(row(finished.out, "factor"), HasSubstr("MB for each step size"));
+  EXPECT_THAT(row(finished.out, "cost"), HasSubstr("forecast"));
+}
+
 TEST_F(Check, WritesNothing) {
   write("beam.toml", small_beam());
   EXPECT_EQ(rheo({"check", "beam.toml"}).exit_code, 0);

@@ -234,6 +234,23 @@ TEST_F(Results, OfTheExponentialIntegratorLeaveEmptyWhatItDoesNotKnow) {
   EXPECT_TRUE(json.at("settings").at("step_bound").is_null());
 }
 
+TEST_F(Results, OfTheImplicitIntegratorCountFactorsAndSolves) {
+  run("implicit", {"--integrator", "implicit", "--step", "0.005"});
+  run("rk4", {"--step", "0.0005"});
+  const auto rk4 = read_table(folder() / "rk4/state.csv")["ux"];
+  const auto implicit = read_table(folder() / "implicit/state.csv")["ux"];
+  ASSERT_EQ(implicit.size(), rk4.size());
+  // RK4's error at this step is 1e-8 of displacements of 0.2 m.
+  for (std::size_t i = 0; i < rk4.size(); ++i) EXPECT_NEAR(implicit[i], rk4[i], 1e-7);
+  const auto json = nlohmann::json::parse(read_text(folder() / "implicit/run.json"));
+  EXPECT_EQ(json.at("settings").at("integrator"), "implicit");
+  EXPECT_EQ(json.at("settings").at("kernel"), "csr");
+  EXPECT_TRUE(json.at("settings").at("stable_step").is_null());
+  EXPECT_EQ(json.at("counters").at("factors"), 1);
+  EXPECT_EQ(json.at("counters").at("shifted_solves"),
+            8 * json.at("counters").at("steps").get<std::int64_t>());
+}
+
 TEST_F(Results, AreListedAtTheEndAndNothingIsSaidWhenQuiet) {
   write("beam.toml", small_beam());
   const Finished spoken = rheo({"run", "beam.toml", "-o", "a", "--vtu"});

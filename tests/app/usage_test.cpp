@@ -78,6 +78,12 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"Kernel",
               {"run", "beam.toml", "--kernel", "fast"},
               {"--kernel 'fast'", "auto, csr, edge, element"}},
+        Wrong{"KernelOfImplicit",
+              {"run", "beam.toml", "--integrator", "implicit", "--kernel", "edge"},
+              {"kernel edge", "implicit", "auto or csr"}},
+        Wrong{"ElementKernelOfImplicit",
+              {"run", "beam.toml", "--integrator", "implicit", "--kernel", "element"},
+              {"kernel element", "implicit", "auto or csr"}},
         Wrong{"Tolerance",
               {"run", "beam.toml", "--integrator", "exponential", "--tolerance", "1e-16"},
               {"--tolerance '1e-16'", "1e-13 to 0.1"}},
@@ -150,13 +156,17 @@ TEST_F(Usage, VersionIsTheProjects) {
 // The address sanitizer reserves more than any limit.
 #if !defined(__SANITIZE_ADDRESS__)
 TEST_F(Usage, AMeshBeyondTheMemoryIsRefusedBeforeItIsBuilt) {
-  // 640,000 nodes: about 0.6 GB, beyond 0.5 GB.
+  // 640,000 nodes: about 0.6 GB, beyond 0.5 GB; implicit: two factors of 1 GB each and the matrices.
   write("big.toml", small_beam_with("nodes = [5, 2]", "nodes = [1600, 400]"));
-  const std::string command =
-      "cd '" + folder().string() + "' && ulimit -v 500000 && '" RHEO_PROGRAM "' run big.toml >out 2>err";
-  const int status = std::system(command.c_str());
-  expect_failure({WEXITSTATUS(status), "", read_text(folder() / "err")}, 2,
-                 {"640000 nodes", "GB", "ulimit -v", "coarser mesh"});
+  const auto refused = [&](const std::string& options, const std::vector<std::string>& parts) {
+    const std::string command = "cd '" + folder().string() +
+                                "' && ulimit -v 500000 && '" RHEO_PROGRAM "' run big.toml " + options +
+                                " >out 2>err";
+    const int status = std::system(command.c_str());
+    expect_failure({WEXITSTATUS(status), "", read_text(folder() / "err")}, 2, parts);
+  };
+  refused("", {"640000 nodes need", "GB", "ulimit -v", "coarser mesh"});
+  refused("--integrator implicit", {"640000 nodes with implicit need about 3.", "GB", "ulimit -v"});
   EXPECT_EQ(read_text(folder() / "out"), "");
 }
 #endif

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -15,10 +16,11 @@
 
 namespace rheo {
 
-// The forcing of one sweep: weight[0] g(t) + weight[1] g'(t) + weight[2] g''(t) + weight[3] g'''(t).
+// The forcing of one sweep: the sum of weight[k] times the k-th derivative of g at t. Between events g is a
+// cubic, or by Baumgarte's stabilisation of a smooth motion of degree five.
 struct Forcing {
   double t = 0.0;
-  std::array<double, 4> weight{};
+  std::array<double, 6> weight{};
 };
 
 // What a sweep's result is for: only another sweep (parts of y that feed on nothing may be left as they are),
@@ -55,6 +57,16 @@ class LinearOperator {
     for (const Sweep& s : sweeps) fma(s.h, s.x, s.base, s.forcing, s.out, s.result);
   }
 
+  // For implicit integrators, where solves_shifted(): d with (1 - s A) d = s (A x + forcing); out is not x.
+  // prepare_shifted(s) comes first, the only one that may allocate; false where s cannot be solved for to
+  // useful digits.
+  virtual bool solves_shifted() const { return false; }
+  virtual bool prepare_shifted(double /*s*/) { return false; }
+  virtual void solve_shifted(double /*s*/, std::span<const double> /*x*/, const Forcing& /*forcing*/,
+                             std::span<double> /*out*/) {
+    assert(false && "this operator cannot solve");
+  }
+
   // From the state's beginning to its end, at most 16; none: one part. The same for the operator's life.
   virtual std::span<const StatePart> parts() const { return {}; }
 };
@@ -73,7 +85,8 @@ class Integrator {
   // y(t) -> y(t + h). `rate` = y'(t) where the caller has it already (saves one evaluation), else empty.
   virtual void step(LinearOperator& op, double t, double h, std::span<double> y,
                     std::span<const double> rate) = 0;
-  // False where the last step missed the accuracy asked for; the state is then short of t + h.
+  // False where the last step missed the accuracy asked for, or could not be taken; the state is then short
+  // of t + h.
   virtual bool converged() const { return true; }
   virtual std::string_view name() const = 0;
   // 0 where a step takes as many evaluations as its tolerance wants.

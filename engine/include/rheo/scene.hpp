@@ -91,7 +91,7 @@ struct Probe {
   std::string where;
 };
 
-enum class IntegratorKind { rk4, euler, exponential };
+enum class IntegratorKind { rk4, euler, exponential, implicit };
 enum class ConstraintMethod {
   automatic,  // eliminate what can be, Baumgarte for the general ones
   baumgarte   // equation (4) for all of them
@@ -101,7 +101,7 @@ struct TimeSettings {
   double duration = 0.0;     // [s], > 0, finite
   double frame_rate = 60.0;  // outputs per second
   IntegratorKind integrator = IntegratorKind::rk4;
-  double step = 0.0;         // upper bound [s]; 0: a quarter of the stable limit, exponential: none
+  double step = 0.0;         // upper bound [s]; 0: a quarter of the stable limit; exponential, implicit: none
   double tolerance = 1e-10;  // exponential: relative error of a run
   double baumgarte = 20.0;   // omega [1/s]; 0: no stabilisation, constraints hold to the rounding of A^T v
   ConstraintMethod constraints = ConstraintMethod::automatic;
@@ -142,6 +142,12 @@ inline constexpr int max_picture_side = 16384;
 
 inline constexpr double finest_tolerance = 1e-13;  // below it rounding rules
 inline constexpr double coarsest_tolerance = 0.1;
+
+// The implicit integrator keeps the factors of its latest step sizes: as many as the budget holds, within
+// these.
+inline constexpr int fewest_factors = 2;
+inline constexpr int most_factors = 6;
+inline constexpr double factors_budget = 512e6;  // bytes
 
 // The settings alone, for values that come from elsewhere than a scene file (a command line, a panel).
 void validate(const TimeSettings& time);

@@ -16,6 +16,7 @@
 // Not here files, pictures
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -34,8 +35,8 @@ struct Energies {
   double stored = 0.0;      // 1/2 w_l^T J_l w_l / lambda_ela + 1/2 w_m^T J_m w_m / mu_ela
   double dissipated = 0.0;  // since the start, by a quadrature of the integrator's order
   double work = 0.0;        // of loads, moving constraints and impulses, since the start, likewise
-  // Not known (NaN) with the exponential integrator, whose steps are too long for a quadrature: dissipated,
-  // unless nothing relaxes; work, where nodes are moved or a traction has several keys.
+  // Not known (NaN) with the exponential and implicit integrators, whose steps are too long for a quadrature:
+  // dissipated, unless nothing relaxes; work, where nodes are moved or a traction has several keys.
 };
 
 struct Divergence {
@@ -54,11 +55,16 @@ struct ProbeReading {
 struct Counters {
   std::int64_t steps = 0;
   std::int64_t force_evaluations = 0;  // products with J_lambda and J_mu together count once
-  std::int64_t mass_solves = 0;        // sparse solves with the consistent mass
-  std::int64_t constraint_solves = 0;  // solves for Lagrange multipliers
-  std::int64_t projections = 0;        // velocity jumps where constraints begin
-  std::int64_t energy_samples = 0;     // looks at the energies: each costs about one evaluation
-  std::int64_t steps_at_rest = 0;      // not taken, because nothing moved and nothing acted
+  std::int64_t branch_updates = 0;     // Maxwell branches advanced: 2 an evaluation; 1 where the two relax at
+                                       // one rate or one is off, 0 where nothing relaxes (edge kernel)
+  std::int64_t displacement_updates = 0;  // times that u was advanced: once a step where no force hangs on it
+  std::int64_t mass_solves = 0;           // sparse solves with the consistent mass
+  std::int64_t constraint_solves = 0;     // solves for Lagrange multipliers
+  std::int64_t projections = 0;           // velocity jumps where constraints begin
+  std::int64_t energy_samples = 0;        // looks at the energies: each costs about one evaluation
+  std::int64_t steps_at_rest = 0;         // not taken, because nothing moved and nothing acted
+  std::int64_t factors = 0;               // implicit: made, for a step size and set of constraints each
+  std::int64_t shifted_solves = 0;        // implicit: sparse solves with them
 };
 
 // Ways to the same rheological force.
@@ -86,21 +92,23 @@ class Simulation {
   const Scene& scene() const;
 
   // The stable limits (over all sets of constraints that the scene goes through) and the largest step that
-  // will be used; both infinite for the exponential integrator (then from event to event and output to
-  // output), the second unless a step is given.
+  // will be used; both infinite for the exponential and the implicit integrator (then from event to event and
+  // output to output), the second unless a step is given.
   const Spectrum& spectrum() const;
   double stable_step() const;
   double step_bound() const;
   // The largest taken so far; 0 before the first.
   double largest_step() const;
-  // Steps from 0 to the scene's duration with outputs at its frame rate. Costs nothing: counted, not run, those at
-  // rest too.
+  // Steps from 0 to the scene's duration with outputs at its frame rate. Costs nothing: counted, not run,
+  // those at rest too.
   std::int64_t planned_steps() const;
 
   // The kernel in use: "csr", "edge" or "element".
   std::string_view kernel() const;
   // How many threads its steps have.
   int threads() const;
+  // Memory of the implicit integrator's factor for one step size [bytes]; 0 for the others.
+  std::size_t factor_bytes() const;
 
   double time() const;
   // Runs to time t >= time(), in equal steps between the events on the way; nullopt when all is well.

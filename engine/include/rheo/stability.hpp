@@ -39,7 +39,7 @@ struct Spectrum {
 };
 
 // Largest h with |R(h s)| <= 1 for every s that `spectrum` allows; 0 where no step is stable (Euler without
-// damping in some mode), infinite where every step is (exponential: always).
+// damping in some mode), infinite where every step is (exponential, implicit: always).
 double stable_step(const Spectrum& spectrum, IntegratorKind integrator);
 
 // Whether that is only a safe bound, the true limit possibly larger: Euler, on scenes too large for their

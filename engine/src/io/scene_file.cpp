@@ -219,17 +219,13 @@ class SceneReader {
   void read_time() {
     const TableReader time = required_table(
         "time", "duration", {"duration", "frame_rate", "integrator", "step", "baumgarte", "constraints"});
-    static const std::array<std::string, 3> integrators{"rk4", "euler", "exponential"};
+    static const std::array<std::string, 4> integrators{"rk4", "euler", "exponential", "implicit"};
     static const std::array<std::string, 2> methods{"auto", "baumgarte"};
     constexpr NumberRule seconds{.low = 0.0, .low_allowed = false, .unit = "s"};
     TimeSettings& t = scene_.time;
     t.duration = time.required_number("duration", seconds, "how long the run is");
     t.frame_rate = time.number("frame_rate", {.low = 0.0, .low_allowed = false, .unit = "outputs per second"},
                                t.frame_rate);
-    if (const TomlValue* name = time.find("integrator"); name != nullptr && name->text == "implicit") {
-      time.refuse("integrator", *name,
-                  "this version does not have it yet; \"rk4\", \"euler\" or \"exponential\" is allowed");
-    }
     t.integrator = static_cast<IntegratorKind>(time.choice("integrator", integrators, 0));
     if (const TomlValue* step = time.find("step"); step != nullptr && step->text != "auto") {
       if (!step->is_number() || !seconds.admits(step->number)) {

@@ -1,7 +1,6 @@
 #include "kernels/edge_body.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace rheo {
@@ -44,17 +43,26 @@ EdgeBody::EdgeBody(const Model& model, const EdgeForce& force, int threads)
       team_(form_.blocks.size(), threads > 0 ? threads : paying_threads(form_.nodes)),
       sums_(form_.blocks.size()) {
   const auto n = static_cast<std::size_t>(form_.nodes);
-  state_.assign(8 * n, 0.0);
-  p_rate_.assign(4 * n, 0.0);
+  const Material& m = model.material;
+  elastic_ = form_.moduli && m.lambda_rate() == 0.0 && m.mu_rate() == 0.0;
+  state_.assign((row() + (elastic_ ? 2 : 4)) * n, 0.0);
+  p_rate_.assign(row() * n, 0.0);
   force_.setZero(static_cast<Eigen::Index>(2 * n));
   force_rate_ = force_;
   mass_.resize(2 * n);
   for (std::size_t k = 0; k < n; ++k) mass_[2 * k] = mass_[2 * k + 1] = model.node_mass[form_.mesh_node[k]];
+  external_.resize(2 * n);
+  external_rate_.resize(2 * n);
 
   corner_begin_ = block_begins(form_, form_.corners);
-  const Material& m = model.material;
-  parts_ = {StatePart{4 * n, smallest_share(model)}, StatePart{2 * n, 1.0}, StatePart{2 * n, 1.0}};
+  parts_ = {StatePart{row() * n, form_.moduli ? 1.0 : smallest_share(model)}, StatePart{2 * n, 1.0}};
+  if (!elastic_) parts_.push_back({2 * n, 1.0});
   for (int axis = 0; axis < 2; ++axis) {
+    if (form_.moduli) {
+      material_.growth[axis] = 1.0;
+      material_.decay[axis] = std::max(m.lambda_rate(), m.mu_rate());
+      continue;
+    }
     material_.growth[axis] = m.lambda_ela;
     material_.growth[2 + axis] = m.mu_ela;
     material_.decay[axis] = m.lambda_rate();
@@ -77,8 +85,15 @@ void EdgeBody::load(std::span<const double> y) {
     const auto node = static_cast<std::size_t>(form_.mesh_node[k]);
     for (std::size_t axis = 0; axis < 2; ++axis) {
       const std::size_t i = 2 * node + axis;
-      state_[p() + 4 * k + axis] = layout.lambda ? y[layout.w_lambda() + i] : 0.0;
-      state_[p() + 4 * k + 2 + axis] = layout.mu ? y[layout.w_mu() + i] : 0.0;
+      double* const pk = state_.data() + p() + row() * k;
+      if (!form_.moduli) {
+        pk[axis] = y[layout.w_lambda() + i];
+        pk[2 + axis] = y[layout.w_mu() + i];
+      } else if (!elastic_) {
+        pk[axis] = layout.lambda ? y[layout.w_lambda() + i] / form_.moduli->lambda
+                   : layout.mu   ? y[layout.w_mu() + i] / form_.moduli->mu
+                                 : 0.0;
+      }
       state_[v() + 2 * k + axis] = y[layout.v() + i];
       state_[u() + 2 * k + axis] = y[layout.u() + i];
     }
@@ -91,8 +106,9 @@ void EdgeBody::store(std::span<double> y) const {
     const auto node = static_cast<std::size_t>(form_.mesh_node[k]);
     for (std::size_t axis = 0; axis < 2; ++axis) {
       const std::size_t i = 2 * node + axis;
-      if (layout.lambda) y[layout.w_lambda() + i] = state_[p() + 4 * k + axis];
-      if (layout.mu) y[layout.w_mu() + i] = state_[p() + 4 * k + 2 + axis];
+      const double* const pk = state_.data() + p() + row() * k;
+      if (layout.lambda) y[layout.w_lambda() + i] = form_.moduli ? form_.moduli->lambda * pk[axis] : pk[axis];
+      if (layout.mu) y[layout.w_mu() + i] = form_.moduli ? form_.moduli->mu * pk[axis] : pk[2 + axis];
       y[layout.v() + i] = state_[v() + 2 * k + axis];
       y[layout.u() + i] = state_[u() + 2 * k + axis];
     }
@@ -139,7 +155,7 @@ void EdgeBody::sweep_block(const Sweep& sweep, std::size_t block) const {
       sweep.x.data() + p(),    sweep.x.data() + v(),
       sweep.base.data() + p(), sweep.base.data() + v(),
       sweep.out.data() + p(),  sweep.out.data() + v(),
-      sweep.base.data() + u(), sweep.result == Result::step ? sweep.out.data() + u() : nullptr};
+      sweep.base.data() + u(), sweep.result == Result::step && !elastic_ ? sweep.out.data() + u() : nullptr};
   edge_force_.sweep()(form_, inverse_mass_.data(), material_, h, arrays, b.first_run, b.last_run);
   double* out_v = sweep.out.data() + v();
   edge_force_.subtract_boundary(h, inverse_mass_.data(), sweep.x.data() + p(), out_v, corner_begin_[block],
@@ -168,7 +184,12 @@ void EdgeBody::fma(double h, std::span<const double> x, std::span<const double> 
 // What sweep k overwrites (the argument of sweep k - 1, or the base) was read in the block and in those
 // beside it before: the team's order.
 void EdgeBody::chain(std::span<const Sweep> sweeps) {
-  counters_.force_evaluations += static_cast<std::int64_t>(sweeps.size());
+  const auto count = static_cast<std::int64_t>(sweeps.size());
+  counters_.force_evaluations += count;
+  counters_.branch_updates += elastic_ ? 0 : form_.moduli ? count : 2 * count;
+  for (const Sweep& sweep : sweeps) {
+    if (elastic_ || sweep.result == Result::step) ++counters_.displacement_updates;
+  }
   team_.chain(sweeps.size(),
               [&](std::size_t sweep, std::size_t block) { sweep_block(sweeps[sweep], block); });
 }
@@ -181,23 +202,28 @@ EdgeBody::Sums EdgeBody::sums_of(const EdgeForm::Block& block) const {
   Sums sums;
   for (std::int32_t r = block.first_run; r < block.last_run; ++r) {
     const EdgeForm::Run& run = form_.runs[r];
-    const double* s = form_.s.data() + 3 * run.edge;
-    const std::uint32_t* offset = form_.offset.data() + run.edge;
     for (std::size_t i = static_cast<std::size_t>(run.first); i < static_cast<std::size_t>(run.last); ++i) {
-      const double* pi = xp + 4 * i;
+      const double* pi = xp + row() * i;
       const double* vi = xv + 2 * i;
       sums.kinetic += mass_[2 * i] * (vi[0] * vi[0] + vi[1] * vi[1]);
-      for (std::int32_t k = 0; k < run.valence; ++k, s += 3, ++offset) {
-        if (*offset < 4 * i) continue;  // each edge once
-        const double* pj = xp + *offset;
-        const double* vj = xv + *offset / 2;
-        const double lx = pj[0] - pi[0], ly = pj[1] - pi[1], mx = pj[2] - pi[2], my = pj[3] - pi[3];
+      const EdgeForm::Edges edges = run.edges_of(static_cast<std::int64_t>(i));
+      auto e = static_cast<std::size_t>(edges.edge);
+      for (std::int32_t k = 0; k < run.valence; ++k, e += static_cast<std::size_t>(edges.stride)) {
+        const std::size_t offset = form_.offset[e];
+        if (offset < row() * i) continue;  // each edge once
+        const double* level = form_.level.data() + row() * e;
+        const double mixed = form_.mixed[e];
+        const double* pj = xp + offset;
+        const double* vj = xv + 2 * (offset / row());
         const double dx = vj[0] - vi[0], dy = vj[1] - vi[1];
-        const double slx = (s[0] + s[1]) * lx + s[2] * ly, sly = s[2] * lx + (s[0] - s[1]) * ly;
-        const double smx = (3 * s[0] + s[1]) * mx + s[2] * my, smy = s[2] * mx + (3 * s[0] - s[1]) * my;
+        const double lx = pj[0] - pi[0], ly = pj[1] - pi[1];
+        const double slx = level[0] * lx + mixed * ly, sly = mixed * lx + level[1] * ly;
         sums.ll -= lx * slx + ly * sly;
-        sums.mm -= mx * smx + my * smy;
         sums.vl -= dx * slx + dy * sly;
+        if (form_.moduli) continue;
+        const double mx = pj[2] - pi[2], my = pj[3] - pi[3];
+        const double smx = level[2] * mx + mixed * my, smy = mixed * mx + level[3] * my;
+        sums.mm -= mx * smx + my * smy;
         sums.vm -= dx * smx + dy * smy;
       }
     }
@@ -221,30 +247,38 @@ EnergySample EdgeBody::sample(double t) {
   }
   // x^T times the boundary's part of F, (h / 4) rot(w_next - w_previous): + for lambda, - for mu.
   for (const EdgeForm::Corner& c : form_.corners) {
-    const double* next = xp + 4 * static_cast<std::size_t>(c.next);
-    const double* previous = xp + 4 * static_cast<std::size_t>(c.previous);
-    const double* pi = xp + 4 * static_cast<std::size_t>(c.node);
+    const double* next = xp + row() * static_cast<std::size_t>(c.next);
+    const double* previous = xp + row() * static_cast<std::size_t>(c.previous);
+    const double* pi = xp + row() * static_cast<std::size_t>(c.node);
     const double* vi = xv + 2 * static_cast<std::size_t>(c.node);
-    std::array<double, 4> d;
-    for (int k = 0; k < 4; ++k) d[k] = next[k] - previous[k];
-    const double q = form_.quarter_thickness;
-    ll += q * (pi[0] * d[1] - pi[1] * d[0]);
-    mm -= q * (pi[2] * d[3] - pi[3] * d[2]);
-    vl += q * (vi[0] * d[1] - vi[1] * d[0]);
-    vm -= q * (vi[0] * d[3] - vi[1] * d[2]);
+    const double q = form_.corner_factor;
+    const double lx = next[0] - previous[0], ly = next[1] - previous[1];
+    ll += q * (pi[0] * ly - pi[1] * lx);
+    vl += q * (vi[0] * ly - vi[1] * lx);
+    if (form_.moduli) continue;
+    const double mx = next[2] - previous[2], my = next[3] - previous[3];
+    mm -= q * (pi[2] * my - pi[3] * mx);
+    vm -= q * (vi[0] * my - vi[1] * mx);
   }
 
   EnergySample e;
   e.kinetic = 0.5 * kinetic;
-  const auto branch = [&](double quadratic, double with_v, double ela, double vis, double decay) {
-    if (ela == 0.0) return;
-    e.stored += 0.5 * quadratic / ela;
-    if (std::isinf(vis)) return;
-    e.dissipated += quadratic / vis;
-    e.dissipated_rate += 2.0 * (ela * with_v - decay * quadratic) / vis;
-  };
-  branch(ll, vl, material.lambda_ela, material.lambda_vis, material.lambda_rate());
-  branch(mm, vm, material.mu_ela, material.mu_vis, material.mu_rate());
+  if (form_.moduli) {
+    // w_l^T J_l w_l / lambda_vis + w_m^T J_m w_m / mu_vis = rate q^T K q
+    const double rate = material_.decay[0];
+    e.stored = 0.5 * ll;
+    e.dissipated = rate * ll;
+    e.dissipated_rate = 2.0 * rate * (vl - rate * ll);
+  } else {
+    const auto branch = [&](double quadratic, double with_v, double ela, double vis, double decay) {
+      e.stored += 0.5 * quadratic / ela;
+      if (std::isinf(vis)) return;
+      e.dissipated += quadratic / vis;
+      e.dissipated_rate += 2.0 * (ela * with_v - decay * quadratic) / vis;
+    };
+    branch(ll, vl, material.lambda_ela, material.lambda_vis, material.lambda_rate());
+    branch(mm, vm, material.mu_ela, material.mu_vis, material.mu_rate());
+  }
   const double s = t - interval_->begin;
   for (const Load& load : loads_) {
     e.load += (load.force + s * load.force_slope) * xu[load.slot];
@@ -256,20 +290,20 @@ EnergySample EdgeBody::sample(double t) {
     // R = m b'' + F - f and its slope with F(w') for F(w).
     edge_force_.apply(xp, force_.data());
     for (std::size_t i = 0; i < p_rate_.size(); ++i) {
-      const std::size_t k = i % 4;
-      p_rate_[i] = material_.growth[k] * xv[i / 4 * 2 + k % 2] - material_.decay[k] * xp[i];
+      const std::size_t k = i % row();
+      p_rate_[i] = material_.growth[k] * xv[i / row() * 2 + k % 2] - material_.decay[k] * xp[i];
     }
     edge_force_.apply(p_rate_.data(), force_rate_.data());
-    std::vector<double> external(mass_.size(), 0.0), external_rate(mass_.size(), 0.0);
+    for (const Held& h : held_) external_[h.slot] = external_rate_[h.slot] = 0.0;
     for (const Load& load : loads_) {
-      external[load.slot] = load.force + s * load.force_slope;
-      external_rate[load.slot] = load.force_slope;
+      external_[load.slot] = load.force + s * load.force_slope;
+      external_rate_[load.slot] = load.force_slope;
     }
     for (const Held& h : held_) {
       const double a = prescribed(h.dof, t, 2);
-      const double r = mass_[h.slot] * a + force_[h.slot] - external[h.slot];
+      const double r = mass_[h.slot] * a + force_[h.slot] - external_[h.slot];
       const double r_rate =
-          mass_[h.slot] * prescribed(h.dof, t, 3) + force_rate_[h.slot] - external_rate[h.slot];
+          mass_[h.slot] * prescribed(h.dof, t, 3) + force_rate_[h.slot] - external_rate_[h.slot];
       e.constraints += r * xv[h.slot];
       e.constraints_rate += r_rate * xv[h.slot] + r * a;
     }

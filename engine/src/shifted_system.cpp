@@ -1,0 +1,231 @@
+#include "shifted_system.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+#include "rheo/error.hpp"
+
+namespace rheo {
+namespace {
+
+// Of a known answer, the softest motion there is: a factor that gives less has lost the rest to rounding.
+constexpr double digits_needed = 1e-6;
+
+BlockPattern pattern_of(const Model& model) {
+  const auto n = static_cast<int>(model.node_mass.size());
+  BlockPattern pattern;
+  pattern.start.assign(1, 0);
+  const SparseMatrix& stiffness = model.layout.lambda ? model.j_lambda : model.j_mu;
+  for (int i = 0; i < n; ++i) {
+    if (model.layout.lambda || model.layout.mu) {
+      for (SparseMatrix::InnerIterator it(stiffness, 2 * i); it; ++it) {
+        if (it.col() % 2 == 0) pattern.column.push_back(static_cast<int>(it.col() / 2));
+      }
+    } else if (model.material.mass == Mass::consistent) {
+      for (SparseMatrix::InnerIterator it(model.mass, i); it; ++it)
+        pattern.column.push_back(static_cast<int>(it.col()));
+    } else {
+      pattern.column.push_back(i);
+    }
+    pattern.start.push_back(static_cast<int>(pattern.column.size()));
+  }
+  return pattern;
+}
+
+// Every 2 x 2 block of a connection matrix into the numbers from `offset` on of its link.
+void copy_blocks(const BlockPattern& pattern, const SparseMatrix& matrix, std::size_t offset,
+                 std::vector<std::array<double, 8>>& links) {
+  for (int node = 0; node < pattern.nodes(); ++node) {
+    for (int p = pattern.start[node]; p < pattern.start[node + 1]; ++p) {
+      for (int row = 0; row < 2; ++row) {
+        const double* values =
+            matrix.valuePtr() + matrix.outerIndexPtr()[2 * node + row] + 2 * (p - pattern.start[node]);
+        links[p][offset + 2 * row] = values[0];
+        links[p][offset + 2 * row + 1] = values[1];
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void require_few_general_constraints(const Scene& scene) {
+  constexpr double memory_limit = 4e9;  // bytes
+  // Two factors kept, each while it is made in two copies.
+  const auto m = static_cast<double>(scene.constraints.size());
+  const double need = 4.0 * m * m * sizeof(double);
+  if (need <= memory_limit) return;
+  throw Error(Error::Kind::input,
+              fmt::format("{} general constraints with integrator = \"implicit\" need about {:.1f} GB, the "
+                          "limit is {:.1f} GB: use \"rk4\"",
+                          scene.constraints.size(), need * 1e-9, memory_limit * 1e-9));
+}
+
+ShiftedSystem::Factor::Factor(double shift, std::shared_ptr<const ConstraintSolver> set,
+                              std::shared_ptr<const BlockAnalysis> analysis)
+    : s(shift), constraints(std::move(set)), blocks(std::move(analysis)) {
+  const auto dofs = 2 * static_cast<std::size_t>(blocks.nodes());
+  free.resize(dofs);
+  for (std::size_t i = 0; i < dofs; ++i) free[i] = constraints->is_free(i) ? 1 : 0;
+  const auto& columns = constraints->columns();
+  for (std::size_t j = 0; j < columns.size(); ++j) {
+    const bool one = columns[j].entries.size() == 1;
+    (one ? single : general).push_back(static_cast<int>(j));
+    if (one) free[columns[j].entries.front().first] = 0;
+  }
+}
+
+ShiftedSystem::ShiftedSystem(const Model& model)
+    : model_(model), analysis_(std::make_shared<BlockAnalysis>(pattern_of(model))) {
+  const BlockPattern& pattern = analysis_->pattern();
+  values_.resize(pattern.column.size());
+  links_.resize(pattern.column.size());
+  if (model.layout.lambda) copy_blocks(pattern, model.j_lambda, 0, links_);
+  if (model.layout.mu) copy_blocks(pattern, model.j_mu, 4, links_);
+  const auto size = static_cast<Eigen::Index>(model.layout.part);
+  work_.setZero(size);
+  correction_.setZero(size);
+}
+
+ShiftedSystem::Found ShiftedSystem::prepare(double s,
+                                            const std::shared_ptr<const ConstraintSolver>& constraints) {
+  const auto known = std::find_if(factors_.begin(), factors_.end(), [&](const auto& factor) {
+    return factor->s == s && factor->constraints == constraints;
+  });
+  if (known != factors_.end()) {
+    std::rotate(factors_.begin(), known, known + 1);
+    current_ = factors_.front().get();
+    return Found::kept;
+  }
+  const double affordable = factors_budget / static_cast<double>(analysis_->factor_bytes());
+  const double kept = std::clamp<double>(affordable, fewest_factors, most_factors);
+  while (static_cast<double>(factors_.size()) + 1.0 > kept) factors_.pop_back();
+  factors_.push_front(std::make_unique<Factor>(s, constraints, analysis_));
+  Factor& factor = *factors_.front();
+  current_ = &factor;
+  fill_values(factor);
+  if (factor.blocks.factor(values_) && holds_digits(factor) && factor_schur(factor)) return Found::made;
+  factors_.pop_front();
+  current_ = nullptr;
+  return Found::failed;
+}
+
+// S, where driven degrees of freedom have the row and column of the unit matrix.
+void ShiftedSystem::fill_values(const Factor& factor) {
+  const Material& material = model_.material;
+  const double s = factor.s;
+  const double lambda = s * s * material.lambda_ela / (1.0 + s * material.lambda_rate());
+  const double mu = s * s * material.mu_ela / (1.0 + s * material.mu_rate());
+  const bool consistent = material.mass == Mass::consistent;
+  const BlockPattern& pattern = analysis_->pattern();
+  for (int node = 0; node < pattern.nodes(); ++node) {
+    for (int p = pattern.start[node]; p < pattern.start[node + 1]; ++p) {
+      const int entry = p - pattern.start[node];
+      const int column = pattern.column[p];
+      Block block;
+      for (int k = 0; k < 4; ++k) block[k] = lambda * links_[p][k] + mu * links_[p][4 + k];
+      const double mass = consistent ? model_.mass.valuePtr()[model_.mass.outerIndexPtr()[node] + entry]
+                                     : (column == node ? model_.node_mass[node] : 0.0);
+      block[0] += mass;
+      block[3] += mass;
+      for (int row = 0; row < 2; ++row) {
+        for (int col = 0; col < 2; ++col) {
+          if (factor.free[2 * node + row] && factor.free[2 * column + col]) continue;
+          block[2 * row + col] = column == node && row == col ? 1.0 : 0.0;
+        }
+      }
+      values_[p] = block;
+    }
+  }
+}
+
+bool ShiftedSystem::holds_digits(const Factor& factor) {
+  // S e for e = 1 on all free degrees of freedom, from the values that were factored.
+  const BlockPattern& pattern = analysis_->pattern();
+  for (int node = 0; node < pattern.nodes(); ++node) {
+    double x = 0.0, y = 0.0;
+    for (int p = pattern.start[node]; p < pattern.start[node + 1]; ++p) {
+      const Block& block = values_[p];
+      x += block[0] + block[1];
+      y += block[2] + block[3];
+    }
+    work_[2 * node] = x;
+    work_[2 * node + 1] = y;
+  }
+  factor.blocks.solve({work_.data(), static_cast<std::size_t>(work_.size())});
+  double largest = 0.0;
+  for (Eigen::Index i = 0; i < work_.size(); ++i) largest = std::max(largest, std::abs(work_[i] - 1.0));
+  return largest <= digits_needed;  // false for NaN
+}
+
+bool ShiftedSystem::factor_schur(Factor& factor) {
+  const auto m = static_cast<Eigen::Index>(factor.general.size());
+  if (m == 0) return true;
+  Eigen::MatrixXd schur(m, m);
+  Vector unit = Vector::Zero(m);
+  for (Eigen::Index j = 0; j < m; ++j) {
+    unit[j] = 1.0;
+    spread(factor, unit);
+    unit[j] = 0.0;
+    factor.blocks.solve({correction_.data(), static_cast<std::size_t>(correction_.size())});
+    for (Eigen::Index i = 0; i < m; ++i)
+      schur(i, j) = factor.constraints->row_times(factor.general[i], correction_.data());
+  }
+  factor.schur.compute(schur);
+  return factor.schur.info() == Eigen::Success;
+}
+
+void ShiftedSystem::spread(const Factor& factor, const Vector& multipliers) {
+  correction_.setZero();
+  for (std::size_t j = 0; j < factor.general.size(); ++j) {
+    for (const auto& [dof, coefficient] : factor.constraints->columns()[factor.general[j]].entries) {
+      if (factor.free[dof]) correction_[dof] += coefficient * multipliers[static_cast<Eigen::Index>(j)];
+    }
+  }
+}
+
+void ShiftedSystem::subtract_force(std::span<const double> pull, Vector& r) const {
+  const BlockPattern& pattern = analysis_->pattern();
+  for (int node = 0; node < pattern.nodes(); ++node) {
+    const double* own = pull.data() + 4 * static_cast<std::size_t>(node);
+    double lambda_x = 0.0, lambda_y = 0.0, mu_x = 0.0, mu_y = 0.0;
+    for (int p = pattern.start[node]; p < pattern.start[node + 1]; ++p) {
+      const double* other = pull.data() + 4 * static_cast<std::size_t>(pattern.column[p]);
+      const std::array<double, 8>& link = links_[p];
+      const double d0 = other[0] - own[0], d1 = other[1] - own[1];
+      const double d2 = other[2] - own[2], d3 = other[3] - own[3];
+      lambda_x += link[0] * d0 + link[1] * d1;
+      lambda_y += link[2] * d0 + link[3] * d1;
+      mu_x += link[4] * d2 + link[5] * d3;
+      mu_y += link[6] * d2 + link[7] * d3;
+    }
+    r[2 * node] -= lambda_x + mu_x;
+    r[2 * node + 1] -= lambda_y + mu_y;
+  }
+}
+
+int ShiftedSystem::solve(Vector& r, Vector& d, Vector& target) {
+  assert(current_ != nullptr);
+  const Factor& factor = *current_;
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    if (!factor.free[i]) r[i] = 0.0;
+  }
+  factor.blocks.solve({r.data(), static_cast<std::size_t>(r.size())});
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    if (factor.free[i]) d[i] = r[i];
+  }
+  if (factor.general.empty()) return 1;
+  for (std::size_t j = 0; j < factor.general.size(); ++j)
+    target[static_cast<Eigen::Index>(j)] -= factor.constraints->row_times(factor.general[j], d.data());
+  factor.schur.solveInPlace(target);
+  spread(factor, target);
+  factor.blocks.solve({correction_.data(), static_cast<std::size_t>(correction_.size())});
+  d += correction_;
+  return 2;
+}
+
+}  // namespace rheo
