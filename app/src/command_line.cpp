@@ -80,9 +80,9 @@ void add_time_options(CLI::App& command, Texts& texts) {
       ->group(group);
   command
       .add_option("--kernel", texts.kernel,
-                  "way to the forces: csr (assembled matrices), edge (vectorised; lumped\n"
-                  "mass, fixed and moved nodes only, not implicit) or auto, the default:\n"
-                  "the fastest that the scene allows")
+                  "way to the forces: csr (assembled matrices), edge or element (by edges or\n"
+                  "triangles, vectorised; lumped mass, fixed and moved nodes only, not\n"
+                  "implicit) or auto, the default: the fastest that the scene allows")
       ->type_name("NAME")
       ->group(group);
   command

@@ -71,7 +71,7 @@ Json read_files_of(const std::vector<Fingerprint>& files) {
   return json;
 }
 
-Json counters_of(const rheo::Counters& counters) {
+Json counters_of(const rheo::Counters& counters, const RunReport& report) {
   return {{"steps", counters.steps},
           {"force_evaluations", counters.force_evaluations},
           {"branch_updates", counters.branch_updates},
@@ -82,7 +82,11 @@ Json counters_of(const rheo::Counters& counters) {
           {"energy_samples", counters.energy_samples},
           {"steps_at_rest", counters.steps_at_rest},
           {"factors", counters.factors},
-          {"shifted_solves", counters.shifted_solves}};
+          {"shifted_solves", counters.shifted_solves},
+          {"color_values", report.color_values},
+          {"frames_drawn", report.drawing.frames_drawn},
+          {"frames_repeated", report.drawing.frames_repeated},
+          {"mesh_uploads", report.drawing.mesh_uploads}};
 }
 
 Json seconds_of(const Seconds& seconds) {
@@ -201,7 +205,7 @@ void write_run_report(const std::filesystem::path& path, const Options& options,
   json["mesh"] = mesh_of(scene);
   json["outputs"] = report.outputs;
   json["files"] = report.files;
-  json["counters"] = counters_of(simulation.counters());
+  json["counters"] = counters_of(simulation.counters(), report);
   json["seconds"] = seconds_of(report.seconds);
   json["notes"] = report.notes;
   json["warnings"] = report.warnings;

@@ -184,7 +184,11 @@ void run_scene(const Options& options) {
                                        name_of(simulation.scene().picture.color)));
     progress.line("note: " + report.notes.back());
   }
-  if (sequence) sequence->draw(simulation.scene(), *recorder, history, folder, progress, seconds);
+  if (sequence) {
+    sequence->draw(simulation.scene(), *recorder, history, folder, progress, seconds);
+    report.color_values = recorder->color_values();
+    report.drawing = sequence->counters();
+  }
 
   folder.made("run.json");
   report.outputs = passed.outputs;

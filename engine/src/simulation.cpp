@@ -10,6 +10,7 @@
 #include "assembled_body.hpp"
 #include "energy_book.hpp"
 #include "kernels/edge_body.hpp"
+#include "kernels/element_body.hpp"
 #include "kernels/flush_denormals.hpp"
 #include "model.hpp"
 #include "rheo/error.hpp"
@@ -41,17 +42,23 @@ std::int64_t steps_in(double length, double bound) {
 // The fastest kernel that the scene's mass and constraints allow, unless one is asked for.
 Assembly assembly_for(const Scene& scene, Kernel kernel) {
   const bool implicit = scene.time.integrator == IntegratorKind::implicit;
-  if (kernel == Kernel::edge && implicit) {
-    throw Error(Error::Kind::input,
-                "kernel edge has no matrices, which integrator = \"implicit\" factors: use auto or csr");
+  const bool asked = kernel == Kernel::edge || kernel == Kernel::element;
+  const char* name = kernel == Kernel::edge ? "edge" : "element";
+  if (asked && implicit) {
+    throw Error(
+        Error::Kind::input,
+        fmt::format("kernel {} has no matrices, which integrator = \"implicit\" factors: use auto or csr",
+                    name));
   }
-  const bool edges = scene.material.mass == Mass::lumped && !has_columns(scene) && !implicit;
-  if (kernel == Kernel::edge && !edges) {
+  const bool by_nodes = scene.material.mass == Mass::lumped && !has_columns(scene) && !implicit;
+  if (asked && !by_nodes) {
     throw Error(Error::Kind::input,
-                "kernel edge needs mass = \"lumped\" and constraints = \"auto\" without [[constraint]]: use "
-                "auto or csr");
+                fmt::format("kernel {} needs mass = \"lumped\" and constraints = \"auto\" without "
+                            "[[constraint]]: use auto or csr",
+                            name));
   }
-  return edges && kernel != Kernel::csr ? Assembly::edges : Assembly::matrices;
+  if (kernel == Kernel::element) return Assembly::elements;
+  return by_nodes && kernel != Kernel::csr ? Assembly::edges : Assembly::matrices;
 }
 
 }  // namespace
@@ -149,6 +156,7 @@ struct Simulation::Impl {
 
   std::unique_ptr<Body> make_body(int threads) const {
     if (model.edges) return std::make_unique<EdgeBody>(model, *model.edges, threads);
+    if (model.elements) return std::make_unique<ElementBody>(model, *model.elements, threads);
     if (implicit()) {
       require_few_general_constraints(scene);
       return std::make_unique<ShiftedBody>(model, scene.time.baumgarte);

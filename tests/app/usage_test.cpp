@@ -76,10 +76,15 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Wrong{
             "Integrator", {"run", "beam.toml", "--integrator", "rk5"}, {"--integrator 'rk5'", "rk4, euler"}},
-        Wrong{"Kernel", {"run", "beam.toml", "--kernel", "fast"}, {"--kernel 'fast'", "auto, csr, edge"}},
+        Wrong{"Kernel",
+              {"run", "beam.toml", "--kernel", "fast"},
+              {"--kernel 'fast'", "auto, csr, edge, element"}},
         Wrong{"KernelOfImplicit",
               {"run", "beam.toml", "--integrator", "implicit", "--kernel", "edge"},
               {"kernel edge", "implicit", "auto or csr"}},
+        Wrong{"ElementKernelOfImplicit",
+              {"run", "beam.toml", "--integrator", "implicit", "--kernel", "element"},
+              {"kernel element", "implicit", "auto or csr"}},
         Wrong{"Tolerance",
               {"run", "beam.toml", "--integrator", "exponential", "--tolerance", "1e-16"},
               {"--tolerance '1e-16'", "1e-13 to 0.1"}},
@@ -171,6 +176,14 @@ TEST_F(Usage, AMeshBeyondTheMemoryIsRefusedBeforeItIsBuilt) {
   EXPECT_EQ(read_text(folder() / "out"), "");
 }
 #endif
+
+TEST_F(Usage, AKernelThatTheSceneDoesNotAllowIsRefused) {
+  write("consistent.toml", small_beam_with("density = 0.2", "density = 0.2\nmass = \"consistent\""));
+  for (const std::string kernel : {"edge", "element"}) {
+    expect_failure(rheo({"run", "consistent.toml", "--kernel", kernel}), 2,
+                   {"kernel " + kernel, "mass = \"lumped\"", "use auto or csr"});
+  }
+}
 
 TEST_F(Usage, ALineBreakInAPathDoesNotBreakTheLine) {
   expect_failure(rheo({"run", "no\nsuch\nfile.toml"}), 4, {"no such file.toml"});

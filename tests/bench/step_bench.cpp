@@ -21,6 +21,7 @@
 #include "assembled_body.hpp"
 #include "bench/step_case.hpp"
 #include "kernels/edge_body.hpp"
+#include "kernels/element_body.hpp"
 
 namespace {
 
@@ -154,5 +155,42 @@ BENCHMARK(step_edge_best<2>)->Name("step2/edge")->Apply(sizes);
 BENCHMARK(step_edge<rheo::SimdLevel::baseline>)->Name("step/edge_baseline")->Apply(sizes);
 BENCHMARK(step_edge<rheo::SimdLevel::avx2>)->Name("step/edge_avx2")->Apply(sizes);
 BENCHMARK(step_edge<rheo::SimdLevel::avx512>)->Name("step/edge_avx512")->Apply(sizes);
+
+// step/element: the element kernel on one material.
+template <rheo::SimdLevel level, int threads = 1>
+void step_element(benchmark::State& state) {
+  if (!rheo::has_simd_level(level)) {
+    state.SkipWithError("this processor has not these instructions");
+    return;
+  }
+  const Case& c = case_of(static_cast<int>(state.range(0)));
+  const rheo::ElementForce force(
+      std::make_shared<rheo::ElementForm>(c.scene.mesh, rheo::Regions{{c.scene.material}, {}}), level);
+  rheo::ElementBody body(*c.model, force, threads);
+  const auto triangles = static_cast<double>(force.form().offset.size());
+  const auto nodes = static_cast<double>(force.form().nodes);
+  // A sweep reads a triangle's 4 numbers and 3 indices, and a node's x, base and inverse mass, and writes out
+  // (forces stay in cache); u once a step.
+  run_body(state, c, body, 4 * (44 * triangles + nodes * (48 + 48 + 16 + 48)) + 32 * nodes,
+           4 * (61 * triangles + 24 * nodes));
+}
+
+template <int threads>
+void step_element_best(benchmark::State& state) {
+  switch (rheo::best_simd_level()) {
+    case rheo::SimdLevel::avx512:
+      return step_element<rheo::SimdLevel::avx512, threads>(state);
+    case rheo::SimdLevel::avx2:
+      return step_element<rheo::SimdLevel::avx2, threads>(state);
+    case rheo::SimdLevel::baseline:
+      return step_element<rheo::SimdLevel::baseline, threads>(state);
+  }
+}
+
+BENCHMARK(step_element_best<1>)->Name("step/element")->Apply(sizes);
+BENCHMARK(step_element_best<2>)->Name("step2/element")->Apply(sizes);
+BENCHMARK(step_element<rheo::SimdLevel::baseline>)->Name("step/element_baseline")->Apply(sizes);
+BENCHMARK(step_element<rheo::SimdLevel::avx2>)->Name("step/element_avx2")->Apply(sizes);
+BENCHMARK(step_element<rheo::SimdLevel::avx512>)->Name("step/element_avx512")->Apply(sizes);
 
 }  // namespace

@@ -71,14 +71,15 @@ struct Counters {
 enum class Kernel {
   automatic,  // edge where the scene allows it, else csr
   csr,        // assembled matrices: every scene; the reference
-  edge        // by edges, vectorised: lumped mass, fixed and moved nodes eliminated
+  edge,       // by edges, vectorised: lumped mass, fixed and moved nodes eliminated
+  element     // by triangles, vectorised: where edge goes
 };
 
 struct SimulationOptions {
   bool allow_unstable = false;  // run a step beyond the stable limit instead of refusing it
   Kernel kernel = Kernel::automatic;
   bool energies = true;  // without: dissipated and work are not known (NaN), and a step costs less
-  int threads = 0;       // of the edge kernel; 0: as many as pay. The result does not depend on it.
+  int threads = 0;       // of edge and element; 0: as many as pay. The result does not depend on it.
 };
 
 class Simulation {
@@ -102,7 +103,7 @@ class Simulation {
   // those at rest too.
   std::int64_t planned_steps() const;
 
-  // The kernel in use: "csr" or "edge".
+  // The kernel in use: "csr", "edge" or "element".
   std::string_view kernel() const;
   // How many threads its steps have.
   int threads() const;
