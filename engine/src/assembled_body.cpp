@@ -32,6 +32,11 @@ void AssembledBody::store(std::span<double> y) const {
 void AssembledBody::enter(const Interval& interval, const Vector& base) {
   Body::enter(interval, base);
   target_.setZero(static_cast<Eigen::Index>(interval.solver->columns().size()));
+  constrained_.assign(model_.layout.part, 0);
+  for (const HeldDof& h : interval.eliminated) constrained_[h.dof] = 1;
+  for (const Column& column : interval.solver->columns()) {
+    for (const auto& [dof, coefficient] : column.entries) constrained_[dof] = 1;
+  }
   evaluated_ = false;
 }
 
@@ -187,19 +192,15 @@ std::span<const double> AssembledBody::multipliers(double t) {
   return {evaluation_.multipliers.data(), static_cast<std::size_t>(evaluation_.multipliers.size())};
 }
 
-void AssembledBody::reaction(const Evaluation& evaluation, const Forcing& forcing, Vector& out) const {
+void AssembledBody::reaction(const Evaluation& evaluation, const Forcing& forcing, Vector& out) {
   out.resize(evaluation.acceleration.size());
   model_.multiply_mass(evaluation.acceleration.data(), out.data());
   if (model_.layout.lambda) out += evaluation.force_lambda;
   if (model_.layout.mu) out += evaluation.force_mu;
-  out -= external_force(forcing);
-  std::vector<char> constrained(out.size(), 0);
-  for (const HeldDof& h : interval_->eliminated) constrained[h.dof] = 1;
-  for (const Column& column : interval_->solver->columns()) {
-    for (const auto& [dof, coefficient] : column.entries) constrained[dof] = 1;
-  }
+  external_force(forcing, external_);
+  out -= external_;
   for (Eigen::Index i = 0; i < out.size(); ++i) {
-    if (!constrained[i]) out[i] = 0.0;
+    if (!constrained_[i]) out[i] = 0.0;
   }
 }
 

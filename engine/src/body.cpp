@@ -17,12 +17,11 @@ double Body::column_value(const Column& column, double t, int derivative) const 
   return derivative == 0 ? column.value : 0.0;
 }
 
-Vector Body::external_force(const Forcing& forcing) const {
-  Vector force = forcing.weight[0] * interval_->force;
+void Body::external_force(const Forcing& forcing, Vector& out) const {
+  out = forcing.weight[0] * interval_->force;
   if (interval_->force_rate.size() > 0) {
-    force += (forcing.weight[0] * (forcing.t - interval_->begin) + forcing.weight[1]) * interval_->force_rate;
+    out += (forcing.weight[0] * (forcing.t - interval_->begin) + forcing.weight[1]) * interval_->force_rate;
   }
-  return force;
 }
 
 }  // namespace rheo

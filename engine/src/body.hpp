@@ -28,7 +28,7 @@ namespace rheo {
 struct Interval {
   double begin = 0.0;
   Vector force;               // external force at `begin` [N]
-  Vector force_rate;          // its slope; empty where nothing changes
+  Vector force_rate;          // its slope; empty or zero where nothing changes
   std::vector<HeldDof> held;  // eliminated or, by Baumgarte for all, turned into columns
   std::vector<HeldDof> eliminated;
   std::vector<std::array<Polynomial, 2>> course;  // by holder: increment since the hold began
@@ -77,7 +77,7 @@ class Body : public LinearOperator {
   // One a general constraint.
   virtual std::span<const double> multipliers(double /*t*/) { return {}; }
 
-  Vector external_force(double t) const { return external_force({t, {1.0, 0.0, 0.0, 0.0}}); }
+  void external_force(double t, Vector& out) const { external_force({t, {1.0, 0.0, 0.0, 0.0}}, out); }
 
   // Prescribed displacement (derivative 0), velocity (1), ... of a held degree of freedom.
   double prescribed(const HeldDof& held, double t, int derivative) const;
@@ -87,7 +87,7 @@ class Body : public LinearOperator {
   Counters& counters() { return counters_; }
 
  protected:
-  Vector external_force(const Forcing& forcing) const;
+  void external_force(const Forcing& forcing, Vector& out) const;
 
   const Model& model_;
   double omega_;

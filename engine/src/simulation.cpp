@@ -9,6 +9,7 @@
 
 #include "assembled_body.hpp"
 #include "energy_book.hpp"
+#include "hands.hpp"
 #include "kernels/edge_body.hpp"
 #include "kernels/flush_denormals.hpp"
 #include "model.hpp"
@@ -19,8 +20,7 @@
 namespace rheo {
 namespace {
 
-constexpr double auto_fraction = 0.25;  // of the stable limit
-constexpr double most_steps = 1e15;     // counted exactly by a double, and beyond any patience
+constexpr double most_steps = 1e15;  // counted exactly by a double, and beyond any patience
 constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t unasked_stride = 16;  // steps between looks at the energy where nobody asks for it
 // Of all energy that ever went in: what is left below it cannot move the body by a rounding of its course.
@@ -54,6 +54,7 @@ struct Simulation::Impl {
   Impl(Scene&& s, const SimulationOptions& options)
       : scene(std::move(s)),
         model(validated(scene).mesh, scene.material, assembly_for(scene, options.kernel)),
+        asked(options),
         schedule(scene, model),
         spectrum(schedule.spectrum()),
         body(make_body(options.threads)),
@@ -67,7 +68,9 @@ struct Simulation::Impl {
     jump.setZero(part);
     dv.setZero(part);
     momentum.setZero(part);
+    nothing.setZero(part);
     owner.assign(model.layout.part, -1);
+    next_owner = owner;
     enter(0);
   }
 
@@ -129,7 +132,7 @@ struct Simulation::Impl {
           name, limit));
     }
     // The exponential integrator goes from event to event and output to output.
-    bound = given ? settings.step : exponential() ? limit : auto_fraction * limit;
+    bound = given ? settings.step : exponential() ? limit : options.stable_share * limit;
     if (!(settings.duration / bound < most_steps)) {
       refuse_step(
           fmt::format("step = {}: {:g} s needs {:.2g} steps for the duration of {:g} s, at most {:g} can be "
@@ -156,31 +159,38 @@ struct Simulation::Impl {
   // Passes an event: new loads and constraints, and the velocity's jump where a constraint begins or its b'
   // jumps.
   void enter(std::size_t i) {
-    const bool first = i == 0;
-    Interval next = schedule.interval(i);
+    index = i;
+    enter_from(schedule.begin(i));
+  }
+
+  // The same at a time in the current interval, where only the hands changed what they do.
+  void enter_from(double begin) {
+    const bool first = !entered;
+    entered = true;
+    schedule.fill(index, begin, next);
+    if (hands != nullptr && hands->add_to(next)) next.solver = schedule.solver_holding(index, next.held);
     // Base: u - key at the hold's beginning, so that b = base + key.
     bool begins = first;
-    std::vector<int> next_owner(owner.size(), -1);
+    std::fill(next_owner.begin(), next_owner.end(), -1);
     for (const HeldDof& h : next.held) {
       next_owner[h.dof] = h.owner;
       const Polynomial& course = next.course[h.owner][h.dof % 2];
       const double after = course.derivative(next.begin, 1);
-      if (owner[h.dof] != h.owner) {
-        base[h.dof] = u()[h.dof] - course.value(next.begin);
-        jump[h.dof] = after - v()[h.dof];
-        begins = true;
-      } else {
-        const double before = interval.course[h.owner][h.dof % 2].derivative(next.begin, 1);
-        // The same velocity from two polynomials differs by rounding.
-        const bool jumps = std::abs(after - before) > 1e-12 * (std::abs(after) + std::abs(before));
-        jump[h.dof] = jumps ? after - before : 0.0;
-        begins = begins || jumps;
-      }
+      const bool taken =
+          owner[h.dof] != h.owner || (hands != nullptr && hands->takes_now(h.owner, next.begin));
+      if (taken) base[h.dof] = u()[h.dof] - course.value(next.begin);
+      const Polynomial* course_before = taken ? nullptr : &interval.course[h.owner][h.dof % 2];
+      const double before = taken ? v()[h.dof] : course_before->derivative(next.begin, 1);
+      // The same velocity from two polynomials differs by rounding.
+      const double size = course.derivative_size(next.begin, 1) +
+                          (taken ? std::abs(before) : course_before->derivative_size(next.begin, 1));
+      const bool jumps = std::abs(after - before) > 1e-12 * size;
+      jump[h.dof] = jumps ? after - before : 0.0;
+      begins = begins || taken || jumps;
     }
-    owner = std::move(next_owner);
+    std::swap(owner, next_owner);
     const bool other_constraints = next.solver != interval.solver;
-    interval = std::move(next);
-    index = i;
+    std::swap(interval, next);
     body->enter(interval, base);
     if (begins && project_velocity(first)) body->load(y);
     body->impose_prescribed(time);
@@ -198,7 +208,7 @@ struct Simulation::Impl {
       dv[h.dof] = jump[h.dof];
       any = any || dv[h.dof] != 0.0;
     }
-    Vector target(static_cast<Eigen::Index>(columns)), impulse;
+    target.resize(static_cast<Eigen::Index>(columns));
     for (std::size_t j = 0; j < columns; ++j) {
       const Column& column = solver.columns()[j];
       if (column.owner >= 0) {
@@ -209,7 +219,7 @@ struct Simulation::Impl {
       any = any || target[j] != 0.0;
     }
     if (!any) return false;
-    solver.solve(Vector::Zero(dv.size()), dv, target, impulse);
+    solver.solve(nothing, dv, target, impulse);
     model.multiply_mass(dv.data(), momentum.data());
     const double work = momentum.dot(v()) + 0.5 * momentum.dot(dv);
     v() += dv;
@@ -256,15 +266,14 @@ struct Simulation::Impl {
   void know_reaction() {
     if (reaction_known) return;
     body->reaction(time, reaction);
-    external = body->external_force(time);
+    body->external_force(time, external);
     reaction_known = true;
   }
 
   // Nothing acts, nothing is moved, and what is left of the energy is nothing beside what went in.
   bool at_rest() {
-    if (interval.moving || interval.force_rate.size() > 0 || !interval.solver->columns().empty())
-      return false;
-    if (!(interval.force.array() == 0.0).all()) return false;
+    if (interval.moving || !interval.solver->columns().empty()) return false;
+    if (!(interval.force.array() == 0.0).all() || !(interval.force_rate.array() == 0.0).all()) return false;
     sample_now();
     return sample.kinetic + sample.stored <= energy_at_rest * book.turnover();
   }
@@ -331,6 +340,23 @@ struct Simulation::Impl {
     return divergence_now();
   }
 
+  // Takes all memory that the hands will need.
+  void attach(Hands& others) {
+    hands = &others;
+    // Beside the scene's constraints only more are held, and a held body's frequencies interlace with the
+    // free one's: the limit stands. Eigenvalues of the scene's own sets say nothing of others.
+    spectrum.eigenvalues.clear();
+    choose_step(asked);
+    for (Interval* i : {&interval, &next}) {
+      i->force_rate.setZero(static_cast<Eigen::Index>(model.layout.part));
+      i->course.reserve(schedule.holder_count() + hands->owner_count());
+      i->held.reserve(model.layout.part);
+      i->eliminated.reserve(model.layout.part);
+    }
+    hands->prepare(schedule);
+    enter_from(time);
+  }
+
   Divergence divergence_now() {
     Divergence d{time, 0, sample.kinetic + sample.stored, book.work() + book.turnover(), limit};
     double fastest = -1.0;
@@ -362,6 +388,7 @@ struct Simulation::Impl {
 
   Scene scene;
   Model model;
+  SimulationOptions asked;
   Schedule schedule;
   Spectrum spectrum;
   std::unique_ptr<Body> body;
@@ -374,11 +401,13 @@ struct Simulation::Impl {
   double largest_step = 0.0;
   double time = 0.0;
   std::size_t index = 0;
-  Interval interval;
+  Interval interval, next;
+  bool entered = false;
+  Hands* hands = nullptr;
   std::vector<double> y, zeros;
   bool y_current = true;
-  Vector base, jump, dv, momentum;
-  std::vector<int> owner;  // by degree of freedom: who holds it, -1: nobody
+  Vector base, jump, dv, momentum, target, impulse, nothing;
+  std::vector<int> owner, next_owner;  // by degree of freedom: who holds it, -1: nobody
   std::vector<double> allowed_violation;
   EnergySample sample;
   double sample_time = 0.0;
@@ -437,6 +466,15 @@ std::int64_t Simulation::planned_steps() const {
   for (std::int64_t k = 0; k < output_count(settings); ++k) run_to(output_time(settings, k));
   run_to(settings.duration);
   return steps;
+}
+
+void Simulation::attach(Hands& hands) {
+  impl_->attach(hands);
+}
+
+void Simulation::hands_changed() {
+  const FlushDenormals flush;
+  impl_->enter_from(impl_->time);
 }
 
 std::span<const double> Simulation::u() const {

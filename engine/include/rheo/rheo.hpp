@@ -4,6 +4,7 @@
 #include "rheo/deformation.hpp"
 #include "rheo/error.hpp"
 #include "rheo/integrator.hpp"
+#include "rheo/live.hpp"
 #include "rheo/material.hpp"
 #include "rheo/mesh.hpp"
 #include "rheo/scene.hpp"

@@ -29,6 +29,8 @@
 
 namespace rheo {
 
+class Hands;
+
 struct Energies {
   double kinetic = 0.0;     // 1/2 v^T M v
   double stored = 0.0;      // 1/2 w_l^T J_l w_l / lambda_ela + 1/2 w_m^T J_m w_m / mu_ela
@@ -71,8 +73,9 @@ enum class Kernel {
 struct SimulationOptions {
   bool allow_unstable = false;  // run a step beyond the stable limit instead of refusing it
   Kernel kernel = Kernel::automatic;
-  bool energies = true;  // without: dissipated and work are not known (NaN), and a step costs less
-  int threads = 0;       // of the edge kernel; 0: as many as pay. The result does not depend on it.
+  bool energies = true;        // without: dissipated and work are not known (NaN), and a step costs less
+  double stable_share = 0.25;  // of the stable limit: the largest step where the scene gives none
+  int threads = 0;             // of the edge kernel; 0: as many as pay. The result does not depend on it.
 };
 
 class Simulation {
@@ -92,8 +95,8 @@ class Simulation {
   double step_bound() const;
   // The largest taken so far; 0 before the first.
   double largest_step() const;
-  // Steps from 0 to the scene's duration with outputs at its frame rate. Costs nothing: counted, not run, those at
-  // rest too.
+  // Steps from 0 to the scene's duration with outputs at its frame rate. Costs nothing: counted, not run,
+  // those at rest too.
   std::int64_t planned_steps() const;
 
   // The kernel in use: "csr" or "edge".
@@ -132,6 +135,12 @@ class Simulation {
   const Counters& counters() const;
 
  private:
+  friend class Live;
+  // From now on hands act beside the scene; they must outlive this.
+  void attach(Hands& hands);
+  // At the current time they begin to do something else.
+  void hands_changed();
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -18,15 +18,15 @@ std::size_t node_of(const Item& item) {
 
 // Where each block's items begin in a list sorted by node, and the list's end.
 template <class Item>
-std::vector<std::size_t> block_begins(const EdgeForm& form, const std::vector<Item>& items) {
-  std::vector<std::size_t> begins;
+void find_block_begins(const EdgeForm& form, const std::vector<Item>& items,
+                       std::vector<std::size_t>& begins) {
+  begins.clear();
   for (const EdgeForm::Block& block : form.blocks) {
     const auto at = std::lower_bound(items.begin(), items.end(), static_cast<std::size_t>(block.first_node),
                                      [](const Item& item, std::size_t node) { return node_of(item) < node; });
     begins.push_back(static_cast<std::size_t>(at - items.begin()));
   }
   begins.push_back(items.size());
-  return begins;
 }
 
 // Below some thousand nodes a thread's part of a step is too short to share.
@@ -51,7 +51,13 @@ EdgeBody::EdgeBody(const Model& model, const EdgeForce& force, int threads)
   mass_.resize(2 * n);
   for (std::size_t k = 0; k < n; ++k) mass_[2 * k] = mass_[2 * k + 1] = model.node_mass[form_.mesh_node[k]];
 
-  corner_begin_ = block_begins(form_, form_.corners);
+  external_.assign(2 * n, 0.0);
+  external_rate_.assign(2 * n, 0.0);
+  inverse_mass_.resize(2 * n);
+  // As many as there can be: enter() allocates nothing, and what is not used takes no memory.
+  loads_.reserve(2 * n);
+  held_.reserve(2 * n);
+  find_block_begins(form_, form_.corners, corner_begin_);
   const Material& m = model.material;
   parts_ = {StatePart{4 * n, smallest_share(model)}, StatePart{2 * n, 1.0}, StatePart{2 * n, 1.0}};
   for (int axis = 0; axis < 2; ++axis) {
@@ -101,7 +107,7 @@ void EdgeBody::store(std::span<double> y) const {
 
 void EdgeBody::enter(const Interval& interval, const Vector& base) {
   Body::enter(interval, base);
-  inverse_mass_.resize(mass_.size());
+  imposed_ = false;
   std::transform(mass_.begin(), mass_.end(), inverse_mass_.begin(), [](double m) { return 1.0 / m; });
   held_.clear();
   for (const HeldDof& h : interval.eliminated) {
@@ -110,7 +116,7 @@ void EdgeBody::enter(const Interval& interval, const Vector& base) {
   }
   const auto by_slot = [](const auto& x, const auto& z) { return x.slot < z.slot; };
   std::sort(held_.begin(), held_.end(), by_slot);
-  held_begin_ = block_begins(form_, held_);
+  find_block_begins(form_, held_, held_begin_);
   loads_.clear();
   for (int dof = 0; dof < static_cast<int>(model_.layout.part); ++dof) {
     const double force = interval.force[dof];
@@ -120,11 +126,13 @@ void EdgeBody::enter(const Interval& interval, const Vector& base) {
     loads_.push_back({s, inverse_mass_[s] * force, inverse_mass_[s] * slope, force, slope});
   }
   std::sort(loads_.begin(), loads_.end(), by_slot);
-  load_begin_ = block_begins(form_, loads_);
+  find_block_begins(form_, loads_, load_begin_);
 }
 
 void EdgeBody::impose_prescribed(double t) {
-  if (!interval_->moving) return;  // held where they were: their velocity and acceleration are exactly zero
+  // Held where they were, their velocity and acceleration are exactly zero.
+  if (!interval_->moving && imposed_) return;
+  imposed_ = true;
   for (const Held& h : held_) {
     state_[u() + h.slot] = prescribed(h.dof, t, 0);
     state_[v() + h.slot] = prescribed(h.dof, t, 1);
@@ -260,31 +268,33 @@ EnergySample EdgeBody::sample(double t) {
       p_rate_[i] = material_.growth[k] * xv[i / 4 * 2 + k % 2] - material_.decay[k] * xp[i];
     }
     edge_force_.apply(p_rate_.data(), force_rate_.data());
-    std::vector<double> external(mass_.size(), 0.0), external_rate(mass_.size(), 0.0);
     for (const Load& load : loads_) {
-      external[load.slot] = load.force + s * load.force_slope;
-      external_rate[load.slot] = load.force_slope;
+      external_[load.slot] = load.force + s * load.force_slope;
+      external_rate_[load.slot] = load.force_slope;
     }
     for (const Held& h : held_) {
       const double a = prescribed(h.dof, t, 2);
-      const double r = mass_[h.slot] * a + force_[h.slot] - external[h.slot];
+      const double r = mass_[h.slot] * a + force_[h.slot] - external_[h.slot];
       const double r_rate =
-          mass_[h.slot] * prescribed(h.dof, t, 3) + force_rate_[h.slot] - external_rate[h.slot];
+          mass_[h.slot] * prescribed(h.dof, t, 3) + force_rate_[h.slot] - external_rate_[h.slot];
       e.constraints += r * xv[h.slot];
       e.constraints_rate += r_rate * xv[h.slot] + r * a;
     }
+    for (const Load& load : loads_) external_[load.slot] = external_rate_[load.slot] = 0.0;
   }
   return e;
 }
 
 void EdgeBody::reaction(double t, Vector& out) {
   edge_force_.apply(state_.data() + p(), force_.data());
-  const Vector external = Body::external_force(t);
+  const double s = t - interval_->begin;
+  for (const Load& load : loads_) external_[load.slot] = load.force + s * load.force_slope;
   out.setZero(static_cast<Eigen::Index>(model_.layout.part));
   for (const Held& h : held_) {
     out[h.dof.dof] = mass_[h.slot] * (interval_->moving ? prescribed(h.dof, t, 2) : 0.0) + force_[h.slot] -
-                     external[h.dof.dof];
+                     external_[h.slot];
   }
+  for (const Load& load : loads_) external_[load.slot] = 0.0;
 }
 
 }  // namespace rheo

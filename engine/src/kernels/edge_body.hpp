@@ -75,9 +75,11 @@ class EdgeBody final : public Body {
     HeldDof dof;
   };
   std::vector<Held> held_;
+  bool imposed_ = false;  // since the interval began
   // Where each block's corners, loads and held degrees of freedom begin; one more at the end.
   std::vector<std::size_t> corner_begin_, load_begin_, held_begin_;
   std::vector<double> p_rate_;
+  std::vector<double> external_, external_rate_;  // n x 2, kernel order: of the loads, else zero
   Vector force_, force_rate_;
 };
 
