@@ -100,6 +100,7 @@ void ConstraintSolver::factor_mass() {
     for (int i = 0; i < 2 * n; ++i) inverse_mass_[i] = free_[i] ? 1.0 / model_.node_mass[i / 2] : 0.0;
     return;
   }
+  packed_.setZero(n);
   for (int axis = 0; axis < 2; ++axis) {
     for (int i = 0; i < n; ++i) {
       if (free_[2 * i + axis]) axis_[axis].nodes.push_back(i);
@@ -142,11 +143,13 @@ void ConstraintSolver::apply_inverse_mass(const Vector& r, Vector& a) const {
     const AxisFactor& packing = axis_[same_axes_ ? 0 : axis];
     const std::vector<int>& nodes = packing.nodes;
     if (nodes.empty()) continue;
-    packed_.resize(static_cast<Eigen::Index>(nodes.size()));
-    for (std::size_t k = 0; k < nodes.size(); ++k) packed_[k] = r[2 * nodes[k] + axis];
-    packing.factor->matrixL().solveInPlace(packed_);
-    packing.factor->matrixU().solveInPlace(packed_);
-    for (std::size_t k = 0; k < nodes.size(); ++k) a[2 * nodes[k] + axis] = packed_[k];
+    auto packed = packed_.head(static_cast<Eigen::Index>(nodes.size()));
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      packed[static_cast<Eigen::Index>(k)] = r[2 * nodes[k] + axis];
+    packing.factor->matrixL().solveInPlace(packed);
+    packing.factor->matrixU().solveInPlace(packed);
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      a[2 * nodes[k] + axis] = packed[static_cast<Eigen::Index>(k)];
   }
 }
 
@@ -215,6 +218,7 @@ void ConstraintSolver::factor_schur() {
   schur_ = std::make_unique<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>();
   schur_->compute(schur);
   pivots_ = schur_->vectorD();
+  packed_multipliers_.setZero(size);
   for (Eigen::Index k = 0; k < size; ++k) {
     const int j =
         schur_->permutationPinv().size() > 0 ? schur_->permutationPinv().indices()[k] : static_cast<int>(k);
@@ -226,7 +230,6 @@ void ConstraintSolver::factor_schur() {
 void ConstraintSolver::solve_schur(Vector& x) const {
   const auto& order = schur_->permutationPinv().indices();
   Vector& packed = packed_multipliers_;
-  packed.resize(x.size());
   for (Eigen::Index k = 0; k < x.size(); ++k) packed[k] = x[order.size() > 0 ? order[k] : k];
   schur_->matrixL().solveInPlace(packed);
   packed.array() /= pivots_.array();

@@ -353,6 +353,10 @@ struct Simulation::Impl {
       i->held.reserve(model.layout.part);
       i->eliminated.reserve(model.layout.part);
     }
+    reaction.setZero(static_cast<Eigen::Index>(model.layout.part));
+    external = reaction;
+    target.setZero(static_cast<Eigen::Index>(scene.constraints.size()));
+    impulse = target;
     hands->prepare(schedule);
     enter_from(time);
   }
