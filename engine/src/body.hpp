@@ -68,6 +68,8 @@ class Body : public LinearOperator {
   virtual void impose_prescribed(double t) = 0;
 
   virtual EnergySample sample(double t) = 0;
+  // Brings a sample of the same state up to date where only the interval is another one.
+  virtual void resample(double t, EnergySample& sample) { sample = this->sample(t); }
 
   // y' at the time of the last sample() while the state is still the same, else empty.
   virtual std::span<const double> known_rate() const { return {}; }

@@ -192,9 +192,12 @@ struct Simulation::Impl {
     const bool other_constraints = next.solver != interval.solver;
     std::swap(interval, next);
     body->enter(interval, base);
-    if (begins && project_velocity(first)) body->load(y);
+    const bool projected = begins && project_velocity(first);
+    if (projected) body->load(y);
     body->impose_prescribed(time);
+    const bool known = sampled && !projected;
     changed();
+    state_sampled = known;  // but for the loads and constraints, the last sample holds
     if (begins || other_constraints) note_violations();
   }
 
@@ -244,7 +247,7 @@ struct Simulation::Impl {
   // The body's state is another one now.
   void changed() {
     y_current = false;
-    sampled = false;
+    sampled = state_sampled = false;
     reaction_known = false;
   }
 
@@ -257,10 +260,14 @@ struct Simulation::Impl {
 
   void sample_now() {
     if (sampled) return;
-    sample = body->sample(time);
-    ++body->counters().energy_samples;
+    if (state_sampled) {
+      body->resample(time, sample);
+    } else {
+      sample = body->sample(time);
+      ++body->counters().energy_samples;
+    }
     sample_time = time;
-    sampled = true;
+    sampled = state_sampled = true;
   }
 
   void know_reaction() {
@@ -415,7 +422,7 @@ struct Simulation::Impl {
   std::vector<double> allowed_violation;
   EnergySample sample;
   double sample_time = 0.0;
-  bool sampled = false;
+  bool sampled = false, state_sampled = false;  // all of it; what depends on the state alone
   Vector reaction, external;
   bool reaction_known = false;
   std::optional<Divergence> diverged;

@@ -45,9 +45,6 @@ EdgeBody::EdgeBody(const Model& model, const EdgeForce& force, int threads)
       sums_(form_.blocks.size()) {
   const auto n = static_cast<std::size_t>(form_.nodes);
   state_.assign(8 * n, 0.0);
-  p_rate_.assign(4 * n, 0.0);
-  force_.setZero(static_cast<Eigen::Index>(2 * n));
-  force_rate_ = force_;
   mass_.resize(2 * n);
   for (std::size_t k = 0; k < n; ++k) mass_[2 * k] = mass_[2 * k + 1] = model.node_mass[form_.mesh_node[k]];
 
@@ -213,11 +210,63 @@ EdgeBody::Sums EdgeBody::sums_of(const EdgeForm::Block& block) const {
   return sums;
 }
 
+// Only constrained nodes are asked for, a few: one by one, not by a sweep over the mesh.
+EdgeBody::NodeForce EdgeBody::force_at(std::size_t node) const {
+  const double* xp = state_.data() + p();
+  const double* xv = state_.data() + v();
+  // w and w' of a node, 4 numbers each.
+  using Quantity = std::array<double, 8>;
+  const auto at = [&](std::size_t i) {
+    Quantity q;
+    for (std::size_t c = 0; c < 4; ++c) {
+      q[c] = xp[4 * i + c];
+      q[4 + c] = material_.growth[c] * xv[2 * i + c % 2] - material_.decay[c] * q[c];
+    }
+    return q;
+  };
+  NodeForce result;
+  const auto add = [&](const Quantity& d, double s0, double s1, double s2) {
+    const auto part = [&](const double* w, std::array<double, 2>& f) {
+      f[0] += s0 * (w[0] + 3 * w[2]) + s1 * (w[0] + w[2]) + s2 * (w[1] + w[3]);
+      f[1] += s0 * (w[1] + 3 * w[3]) - s1 * (w[1] + w[3]) + s2 * (w[0] + w[2]);
+    };
+    part(d.data(), result.force);
+    part(d.data() + 4, result.rate);
+  };
+  const auto run = std::upper_bound(
+      form_.runs.begin(), form_.runs.end(), node,
+      [](std::size_t i, const EdgeForm::Run& r) { return i < static_cast<std::size_t>(r.last); });
+  const auto first = static_cast<std::size_t>(run->edge) +
+                     (node - static_cast<std::size_t>(run->first)) * static_cast<std::size_t>(run->valence);
+  const Quantity own = at(node);
+  for (std::size_t k = first; k < first + static_cast<std::size_t>(run->valence); ++k) {
+    Quantity d = at(form_.offset[k] / 4);
+    for (std::size_t c = 0; c < d.size(); ++c) d[c] -= own[c];
+    add(d, form_.s[3 * k], form_.s[3 * k + 1], form_.s[3 * k + 2]);
+  }
+  const auto by_node = [](const EdgeForm::Corner& c, std::size_t i) {
+    return static_cast<std::size_t>(c.node) < i;
+  };
+  for (auto c = std::lower_bound(form_.corners.begin(), form_.corners.end(), node, by_node);
+       c != form_.corners.end() && static_cast<std::size_t>(c->node) == node; ++c) {
+    const Quantity next = at(static_cast<std::size_t>(c->next));
+    const Quantity previous = at(static_cast<std::size_t>(c->previous));
+    const auto part = [&](std::size_t o, std::array<double, 2>& f) {
+      const double dx = (next[o] - previous[o]) - (next[o + 2] - previous[o + 2]);
+      const double dy = (next[o + 1] - previous[o + 1]) - (next[o + 3] - previous[o + 3]);
+      f[0] += form_.quarter_thickness * dy;
+      f[1] -= form_.quarter_thickness * dx;
+    };
+    part(0, result.force);
+    part(4, result.rate);
+  }
+  return result;
+}
+
 EnergySample EdgeBody::sample(double t) {
   const Material& material = model_.material;
   const double* xp = state_.data() + p();
   const double* xv = state_.data() + v();
-  const double* xu = state_.data() + u();
   team_.chain(1, [&](std::size_t, std::size_t block) { sums_[block] = sums_of(form_.blocks[block]); });
   double ll = 0.0, mm = 0.0, vl = 0.0, vm = 0.0, kinetic = 0.0;
   for (const Sums& sums : sums_) {
@@ -253,6 +302,15 @@ EnergySample EdgeBody::sample(double t) {
   };
   branch(ll, vl, material.lambda_ela, material.lambda_vis, material.lambda_rate());
   branch(mm, vm, material.mu_ela, material.mu_vis, material.mu_rate());
+  resample(t, e);
+  return e;
+}
+
+void EdgeBody::resample(double t, EnergySample& e) {
+  const double* xv = state_.data() + v();
+  const double* xu = state_.data() + u();
+  e.load = e.load_power = e.load_slope = e.load_slope_rate = 0.0;
+  e.constraints = e.constraints_rate = 0.0;
   const double s = t - interval_->begin;
   for (const Load& load : loads_) {
     e.load += (load.force + s * load.force_slope) * xu[load.slot];
@@ -262,37 +320,35 @@ EnergySample EdgeBody::sample(double t) {
   }
   if (interval_->moving) {
     // R = m b'' + F - f and its slope with F(w') for F(w).
-    edge_force_.apply(xp, force_.data());
-    for (std::size_t i = 0; i < p_rate_.size(); ++i) {
-      const std::size_t k = i % 4;
-      p_rate_[i] = material_.growth[k] * xv[i / 4 * 2 + k % 2] - material_.decay[k] * xp[i];
-    }
-    edge_force_.apply(p_rate_.data(), force_rate_.data());
     for (const Load& load : loads_) {
       external_[load.slot] = load.force + s * load.force_slope;
       external_rate_[load.slot] = load.force_slope;
     }
+    NodeForce at;
+    std::size_t node = mass_.size();
     for (const Held& h : held_) {
+      if (h.slot / 2 != node) at = force_at(node = h.slot / 2);
       const double a = prescribed(h.dof, t, 2);
-      const double r = mass_[h.slot] * a + force_[h.slot] - external_[h.slot];
+      const double r = mass_[h.slot] * a + at.force[h.slot % 2] - external_[h.slot];
       const double r_rate =
-          mass_[h.slot] * prescribed(h.dof, t, 3) + force_rate_[h.slot] - external_rate_[h.slot];
+          mass_[h.slot] * prescribed(h.dof, t, 3) + at.rate[h.slot % 2] - external_rate_[h.slot];
       e.constraints += r * xv[h.slot];
       e.constraints_rate += r_rate * xv[h.slot] + r * a;
     }
     for (const Load& load : loads_) external_[load.slot] = external_rate_[load.slot] = 0.0;
   }
-  return e;
 }
 
 void EdgeBody::reaction(double t, Vector& out) {
-  edge_force_.apply(state_.data() + p(), force_.data());
   const double s = t - interval_->begin;
   for (const Load& load : loads_) external_[load.slot] = load.force + s * load.force_slope;
   out.setZero(static_cast<Eigen::Index>(model_.layout.part));
+  NodeForce at;
+  std::size_t node = mass_.size();
   for (const Held& h : held_) {
-    out[h.dof.dof] = mass_[h.slot] * (interval_->moving ? prescribed(h.dof, t, 2) : 0.0) + force_[h.slot] -
-                     external_[h.slot];
+    if (h.slot / 2 != node) at = force_at(node = h.slot / 2);
+    const double a = interval_->moving ? prescribed(h.dof, t, 2) : 0.0;
+    out[h.dof.dof] = mass_[h.slot] * a + at.force[h.slot % 2] - external_[h.slot];
   }
   for (const Load& load : loads_) external_[load.slot] = 0.0;
 }

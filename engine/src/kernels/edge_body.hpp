@@ -32,6 +32,7 @@ class EdgeBody final : public Body {
   void chain(std::span<const Sweep> sweeps) override;
   std::span<const StatePart> parts() const override { return parts_; }
   EnergySample sample(double t) override;
+  void resample(double t, EnergySample& sample) override;
   void reaction(double t, Vector& out) override;
 
  private:
@@ -45,6 +46,12 @@ class EdgeBody final : public Body {
 
   // One sweep over one block.
   void sweep_block(const Sweep& sweep, std::size_t block) const;
+
+  // Of one node: the force F of the state, and with w' for w.
+  struct NodeForce {
+    std::array<double, 2> force{}, rate{};
+  };
+  NodeForce force_at(std::size_t node) const;
 
   // Sums over a block's edges and nodes, for the energies.
   struct Sums {
@@ -78,9 +85,7 @@ class EdgeBody final : public Body {
   bool imposed_ = false;  // since the interval began
   // Where each block's corners, loads and held degrees of freedom begin; one more at the end.
   std::vector<std::size_t> corner_begin_, load_begin_, held_begin_;
-  std::vector<double> p_rate_;
   std::vector<double> external_, external_rate_;  // n x 2, kernel order: of the loads, else zero
-  Vector force_, force_rate_;
 };
 
 }  // namespace rheo
