@@ -293,8 +293,7 @@ void Hands::prepare(Schedule& schedule) const {
     return;
   }
   for (std::size_t i = 0; i < schedule.interval_count(); ++i) {
-    Interval interval;
-    schedule.fill(i, schedule.begin(i), interval);
+    const Interval interval = schedule.interval(i);
     for (const Hand& hand : hands_) {
       std::vector<HeldDof> held = interval.held;
       for (const int node : hand.nodes) {

@@ -208,6 +208,26 @@ void Schedule::fill(std::size_t i, double begin, Interval& result) {
   }
 }
 
+std::int64_t Schedule::planned_steps(double bound) const {
+  const TimeSettings& settings = scene_.time;
+  std::int64_t steps = 0;
+  double t = 0.0;
+  std::size_t interval = 0;
+  const auto run_to = [&](double target) {
+    while (t < target && !same_time(t, target)) {
+      const double event = end(interval);
+      const bool passes = event <= target || same_time(event, target);
+      const double stop = passes ? event : target;
+      steps += steps_in(stop - t, bound);
+      t = stop;
+      if (passes) ++interval;
+    }
+  };
+  for (std::int64_t k = 0; k < output_count(settings); ++k) run_to(output_time(settings, k));
+  run_to(settings.duration);
+  return steps;
+}
+
 std::vector<Simulation::ActiveTraction> Schedule::active_tractions(std::size_t i, double t) const {
   std::vector<Simulation::ActiveTraction> result;
   const double inside = middle(i);

@@ -33,6 +33,11 @@ class Schedule {
   double begin(std::size_t i) const { return events_[i]; }
   double end(std::size_t i) const;  // infinite for the last
 
+  Interval interval(std::size_t i) {
+    Interval result;
+    fill(i, begin(i), result);
+    return result;
+  }
   // What holds from `begin` on, a time in interval i. Allocates nothing where `out` was filled before, but
   // for sets of constraints beyond the first 16.
   void fill(std::size_t i, double begin, Interval& out);
@@ -43,6 +48,8 @@ class Schedule {
   // Whether that needs no factor.
   bool holding_is_free() const { return scene_.material.mass == Mass::lumped && scene_.constraints.empty(); }
   std::size_t holder_count() const { return holders_.size(); }
+  // Steps of at most `bound` through all intervals and outputs.
+  std::int64_t planned_steps(double bound) const;
   std::vector<Simulation::ActiveTraction> active_tractions(std::size_t i, double t) const;
 
   // Over all sets of constraints that the scene goes through.

@@ -10,6 +10,7 @@
 #include "assembled_body.hpp"
 #include "energy_book.hpp"
 #include "hands.hpp"
+#include "holds.hpp"
 #include "kernels/edge_body.hpp"
 #include "kernels/flush_denormals.hpp"
 #include "model.hpp"
@@ -26,15 +27,24 @@ constexpr std::int64_t unasked_stride = 16;  // steps between looks at the energ
 // Of all energy that ever went in: what is left below it cannot move the body by a rounding of its course.
 constexpr double energy_at_rest = 1e-32;
 constexpr double violation_allowed = 0.01;  // of a constraint's coefficients times the largest |u|
-
 const Scene& validated(const Scene& scene) {
   validate(scene);
   return scene;
 }
 
-// Steps of at most `bound` that divide a stretch of time.
-std::int64_t steps_in(double length, double bound) {
-  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / bound * (1.0 - 1e-12))));
+// The first node whose velocity is no number, or the one with the largest.
+int fastest_node(const VectorMap& v) {
+  double fastest = -1.0;
+  Eigen::Index found = 0;
+  for (Eigen::Index node = 0; node < v.size() / 2; ++node) {
+    const double speed = std::hypot(v[2 * node], v[2 * node + 1]);
+    if (!std::isfinite(speed)) return static_cast<int>(node);
+    if (speed > fastest) {
+      fastest = speed;
+      found = node;
+    }
+  }
+  return static_cast<int>(found);
 }
 
 // The fastest kernel that the scene's mass and constraints allow, unless one is asked for.
@@ -61,16 +71,9 @@ struct Simulation::Impl {
         integrator(make_integrator(scene.time.integrator, body->size(), exponential_settings())),
         stride(options.energies ? 1 : unasked_stride),
         y(model.layout.size(), 0.0),
-        zeros(model.layout.part, 0.0) {
+        zeros(model.layout.part, 0.0),
+        holds(model, scene.constraints.size()) {
     choose_step(options);
-    const auto part = static_cast<Eigen::Index>(model.layout.part);
-    base.setZero(part);
-    jump.setZero(part);
-    dv.setZero(part);
-    momentum.setZero(part);
-    nothing.setZero(part);
-    owner.assign(model.layout.part, -1);
-    next_owner = owner;
     enter(0);
   }
 
@@ -169,66 +172,27 @@ struct Simulation::Impl {
     entered = true;
     schedule.fill(index, begin, next);
     if (hands != nullptr && hands->add_to(next)) next.solver = schedule.solver_holding(index, next.held);
-    // Base: u - key at the hold's beginning, so that b = base + key.
-    bool begins = first;
-    std::fill(next_owner.begin(), next_owner.end(), -1);
-    for (const HeldDof& h : next.held) {
-      next_owner[h.dof] = h.owner;
-      const Polynomial& course = next.course[h.owner][h.dof % 2];
-      const double after = course.derivative(next.begin, 1);
-      const bool taken =
-          owner[h.dof] != h.owner || (hands != nullptr && hands->takes_now(h.owner, next.begin));
-      if (taken) base[h.dof] = u()[h.dof] - course.value(next.begin);
-      const Polynomial* course_before = taken ? nullptr : &interval.course[h.owner][h.dof % 2];
-      const double before = taken ? v()[h.dof] : course_before->derivative(next.begin, 1);
-      // The same velocity from two polynomials differs by rounding.
-      const double size = course.derivative_size(next.begin, 1) +
-                          (taken ? std::abs(before) : course_before->derivative_size(next.begin, 1));
-      const bool jumps = std::abs(after - before) > 1e-12 * size;
-      jump[h.dof] = jumps ? after - before : 0.0;
-      begins = begins || taken || jumps;
-    }
-    std::swap(owner, next_owner);
+    if (holds.change_owners(next, hands)) fetch();
+    const bool begins =
+        holds.find_jumps(interval, next, y.data() + model.layout.u(), y.data() + model.layout.v()) || first;
     const bool other_constraints = next.solver != interval.solver;
     std::swap(interval, next);
-    body->enter(interval, base);
-    const bool projected = begins && project_velocity(first);
-    if (projected) body->load(y);
+    body->enter(interval, holds.base());
+    bool projected = false;
+    if (begins) {
+      const auto general = first ? Holds::General::begin : Holds::General::go_on;
+      if (const auto work = holds.project(interval, general, v())) {
+        book.book_impulse(*work);
+        ++body->counters().projections;
+        body->load(y);
+        projected = true;
+      }
+    }
     body->impose_prescribed(time);
     const bool known = sampled && !projected;
     changed();
     state_sampled = known;  // but for the loads and constraints, the last sample holds
     if (begins || other_constraints) note_violations();
-  }
-
-  // v+ = v + M^-1 A L: an impulse, whose energy is work. A constraint that begins takes A^T v to b'; one that
-  // goes on changes A^T v by the jump of its b' only, so that Baumgarte's decay of what it had is left alone.
-  bool project_velocity(bool first) {
-    const ConstraintSolver& solver = *interval.solver;
-    const std::size_t columns = solver.columns().size();
-    bool any = false;
-    for (const HeldDof& h : interval.eliminated) {
-      dv[h.dof] = jump[h.dof];
-      any = any || dv[h.dof] != 0.0;
-    }
-    target.resize(static_cast<Eigen::Index>(columns));
-    for (std::size_t j = 0; j < columns; ++j) {
-      const Column& column = solver.columns()[j];
-      if (column.owner >= 0) {
-        target[j] = jump[column.entries.front().first];
-      } else {
-        target[j] = first ? -solver.row_times(j, v().data()) : 0.0;
-      }
-      any = any || target[j] != 0.0;
-    }
-    if (!any) return false;
-    solver.solve(nothing, dv, target, impulse);
-    model.multiply_mass(dv.data(), momentum.data());
-    const double work = momentum.dot(v()) + 0.5 * momentum.dot(dv);
-    v() += dv;
-    book.book_impulse(work);
-    ++body->counters().projections;
-    return true;
   }
 
   double violation(std::size_t column) {
@@ -362,26 +326,13 @@ struct Simulation::Impl {
     }
     reaction.setZero(static_cast<Eigen::Index>(model.layout.part));
     external = reaction;
-    target.setZero(static_cast<Eigen::Index>(scene.constraints.size()));
-    impulse = target;
     hands->prepare(schedule);
     enter_from(time);
   }
 
   Divergence divergence_now() {
     Divergence d{time, 0, sample.kinetic + sample.stored, book.work() + book.turnover(), limit};
-    double fastest = -1.0;
-    for (int node = 0; node < scene.mesh.node_count(); ++node) {
-      const double speed = std::hypot(v()[2 * node], v()[2 * node + 1]);
-      if (!std::isfinite(speed)) {
-        d.node = node;
-        break;
-      }
-      if (speed > fastest) {
-        fastest = speed;
-        d.node = node;
-      }
-    }
+    d.node = fastest_node(v());
     return d;
   }
 
@@ -417,8 +368,7 @@ struct Simulation::Impl {
   Hands* hands = nullptr;
   std::vector<double> y, zeros;
   bool y_current = true;
-  Vector base, jump, dv, momentum, target, impulse, nothing;
-  std::vector<int> owner, next_owner;  // by degree of freedom: who holds it, -1: nobody
+  Holds holds;
   std::vector<double> allowed_violation;
   EnergySample sample;
   double sample_time = 0.0;
@@ -460,23 +410,7 @@ const Counters& Simulation::counters() const {
 }
 
 std::int64_t Simulation::planned_steps() const {
-  const TimeSettings& settings = impl_->scene.time;
-  std::int64_t steps = 0;
-  double t = 0.0;
-  std::size_t interval = 0;
-  const auto run_to = [&](double target) {
-    while (t < target && !same_time(t, target)) {
-      const double event = impl_->schedule.end(interval);
-      const bool passes = event <= target || same_time(event, target);
-      const double end = passes ? event : target;
-      steps += steps_in(end - t, impl_->bound);
-      t = end;
-      if (passes) ++interval;
-    }
-  };
-  for (std::int64_t k = 0; k < output_count(settings); ++k) run_to(output_time(settings, k));
-  run_to(settings.duration);
-  return steps;
+  return impl_->schedule.planned_steps(impl_->bound);
 }
 
 void Simulation::attach(Hands& hands) {

@@ -56,6 +56,25 @@ TEST(Live, IsItsSessionWrittenAsAScene) {
   }
 }
 
+TEST(Live, TheSameBitsOnTwoThreads) {
+  const Scene scene = live_block(Mass::lumped, 61, 41);
+  LiveSettings settings = live_settings(scene);
+  settings.simulation.threads = 1;
+  Live one(scene, settings);
+  settings.simulation.threads = 2;
+  Live two(scene, settings);
+  ASSERT_EQ(two.simulation().threads(), 2);
+  for (int k = 0; k < 50; ++k) {
+    act(one, k);
+    act(two, k);
+    ASSERT_FALSE(one.tick());
+    ASSERT_FALSE(two.tick());
+    EXPECT_EQ(one.read(grab_handle).force, two.read(grab_handle).force);
+  }
+  expect_same_bits(one.simulation(), two.simulation());
+  EXPECT_EQ(one.simulation().energies().work, two.simulation().energies().work);
+}
+
 // The same against matrix exponentials: RK4's error with this step, 16 times smaller with half of it.
 TEST(Live, IsTheExactSolutionOfItsSession) {
   double errors[2];
