@@ -76,6 +76,8 @@ class Body : public LinearOperator {
 
   // M a + F - f on constrained degrees of freedom, zero elsewhere: what the constraints do to the nodes.
   virtual void reaction(double t, Vector& out) = 0;
+  // The same where only some eliminated degrees of freedom are looked at; others may hold anything.
+  virtual void reaction_at(double t, std::span<const HeldDof> /*held*/, Vector& out) { reaction(t, out); }
   // One a general constraint.
   virtual std::span<const double> multipliers(double /*t*/) { return {}; }
 

@@ -31,6 +31,7 @@ class Hands {
   bool release(int handle, double t);
   bool is_grabbed(int handle) const { return hands_[handle].grabbed; }
   Vec2 traction(int handle) const { return hands_[handle].traction_b.p; }
+  std::span<const HeldDof> held(int handle) const { return hands_[handle].held; }
   HandReading read(int handle, std::span<const double> u, std::span<const double> reaction) const;
 
   // Targets become courses from t0 to t1. Whether anything differs from the tick before.

@@ -68,7 +68,7 @@ std::int64_t Live::ticks() const {
 }
 HandReading Live::read(int handle) {
   assert(handle >= 0 && handle < handle_count());
-  return hands_->read(handle, simulation_->u(), simulation_->reaction());
+  return hands_->read(handle, simulation_->u(), simulation_->reaction_at(hands_->held(handle)));
 }
 std::span<const double> Live::reaction() {
   return simulation_->reaction();

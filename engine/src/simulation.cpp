@@ -234,6 +234,10 @@ struct Simulation::Impl {
     sampled = state_sampled = true;
   }
 
+  void know_reaction_at(std::span<const HeldDof> held) {
+    if (!reaction_known) body->reaction_at(time, held, reaction);
+  }
+
   void know_reaction() {
     if (reaction_known) return;
     body->reaction(time, reaction);
@@ -420,6 +424,11 @@ void Simulation::attach(Hands& hands) {
 void Simulation::hands_changed() {
   const FlushDenormals flush;
   impl_->enter_from(impl_->time);
+}
+
+std::span<const double> Simulation::reaction_at(std::span<const HeldDof> held) {
+  impl_->know_reaction_at(held);
+  return {impl_->reaction.data(), impl_->model.layout.part};
 }
 
 std::span<const double> Simulation::u() const {

@@ -84,7 +84,7 @@ TEST(Live, IsTheExactSolutionOfItsSession) {
     LiveSettings settings = live_settings(scene);
     settings.rate = 100.0;
     Live live(scene, settings);
-    for (int k = 0; k < 45; ++k) {
+    for (int k = 0; k < 30; ++k) {
       act(live, k);
       ASSERT_FALSE(live.tick());
     }

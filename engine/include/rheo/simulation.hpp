@@ -30,6 +30,7 @@
 namespace rheo {
 
 class Hands;
+struct HeldDof;
 
 struct Energies {
   double kinetic = 0.0;     // 1/2 v^T M v
@@ -140,6 +141,8 @@ class Simulation {
   void attach(Hands& hands);
   // At the current time they begin to do something else.
   void hands_changed();
+  // reaction() where only these are looked at.
+  std::span<const double> reaction_at(std::span<const HeldDof> held);
 
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -108,7 +108,9 @@ void EdgeBody::enter(const Interval& interval, const Vector& base) {
   std::transform(mass_.begin(), mass_.end(), inverse_mass_.begin(), [](double m) { return 1.0 / m; });
   held_.clear();
   for (const HeldDof& h : interval.eliminated) {
-    held_.push_back({slot(h.dof), h});
+    Polynomial change = interval.course[h.owner][h.dof % 2];
+    change.c[0] = 0.0;
+    held_.push_back({slot(h.dof), h, !change.is_zero()});
     inverse_mass_[held_.back().slot] = 0.0;
   }
   const auto by_slot = [](const auto& x, const auto& z) { return x.slot < z.slot; };
@@ -129,11 +131,12 @@ void EdgeBody::enter(const Interval& interval, const Vector& base) {
 void EdgeBody::impose_prescribed(double t) {
   // Held where they were, their velocity and acceleration are exactly zero.
   if (!interval_->moving && imposed_) return;
-  imposed_ = true;
   for (const Held& h : held_) {
+    if (!h.moves && imposed_) continue;
     state_[u() + h.slot] = prescribed(h.dof, t, 0);
     state_[v() + h.slot] = prescribed(h.dof, t, 1);
   }
+  imposed_ = true;
 }
 
 void EdgeBody::sweep_block(const Sweep& sweep, std::size_t block) const {
@@ -156,6 +159,7 @@ void EdgeBody::sweep_block(const Sweep& sweep, std::size_t block) const {
   }
   if (!interval_->moving) return;
   for (std::size_t k = held_begin_[block]; k < held_begin_[block + 1]; ++k) {
+    if (!held_[k].moves) continue;
     double a = 0.0;
     for (int d = 0; d < 4; ++d) {
       if (forcing.weight[d] != 0.0) a += forcing.weight[d] * prescribed(held_[k].dof, forcing.t, 2 + d);
@@ -327,6 +331,7 @@ void EdgeBody::resample(double t, EnergySample& e) {
     NodeForce at;
     std::size_t node = mass_.size();
     for (const Held& h : held_) {
+      if (!h.moves) continue;
       if (h.slot / 2 != node) at = force_at(node = h.slot / 2);
       const double a = prescribed(h.dof, t, 2);
       const double r = mass_[h.slot] * a + at.force[h.slot % 2] - external_[h.slot];
@@ -340,15 +345,20 @@ void EdgeBody::resample(double t, EnergySample& e) {
 }
 
 void EdgeBody::reaction(double t, Vector& out) {
+  out.setZero(static_cast<Eigen::Index>(model_.layout.part));
+  reaction_at(t, interval_->eliminated, out);
+}
+
+void EdgeBody::reaction_at(double t, std::span<const HeldDof> held, Vector& out) {
   const double s = t - interval_->begin;
   for (const Load& load : loads_) external_[load.slot] = load.force + s * load.force_slope;
-  out.setZero(static_cast<Eigen::Index>(model_.layout.part));
   NodeForce at;
   std::size_t node = mass_.size();
-  for (const Held& h : held_) {
-    if (h.slot / 2 != node) at = force_at(node = h.slot / 2);
-    const double a = interval_->moving ? prescribed(h.dof, t, 2) : 0.0;
-    out[h.dof.dof] = mass_[h.slot] * a + at.force[h.slot % 2] - external_[h.slot];
+  for (const HeldDof& h : held) {
+    const std::size_t k = slot(h.dof);
+    if (k / 2 != node) at = force_at(node = k / 2);
+    const double a = interval_->moving ? prescribed(h, t, 2) : 0.0;
+    out[h.dof] = mass_[k] * a + at.force[k % 2] - external_[k];
   }
   for (const Load& load : loads_) external_[load.slot] = 0.0;
 }

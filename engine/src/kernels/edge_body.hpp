@@ -34,6 +34,7 @@ class EdgeBody final : public Body {
   EnergySample sample(double t) override;
   void resample(double t, EnergySample& sample) override;
   void reaction(double t, Vector& out) override;
+  void reaction_at(double t, std::span<const HeldDof> held, Vector& out) override;
 
  private:
   // The state's parts: p (n x 4), v (n x 2), u (n x 2).
@@ -80,6 +81,7 @@ class EdgeBody final : public Body {
   struct Held {
     std::size_t slot = 0;
     HeldDof dof;
+    bool moves = false;  // in this interval; else v = 0 exactly
   };
   std::vector<Held> held_;
   bool imposed_ = false;  // since the interval began
