@@ -25,15 +25,15 @@ class Holds {
 
   const Vector& base() const { return base_; }
 
-  // Two halves of one passage. First: who holds what from now on; whether some hold begins (then `begin`
-  // wants u and v). hands: may be null.
+  // Two halves of one passage. First: who holds what from now on; whether some hold begins. hands: may be
+  // null.
   bool change_owners(const Interval& next, const Hands* hands);
   // Then: bases, and what v jumps by; whether something begins or jumps. u, v: looked at where a hold begins.
   bool find_jumps(const Interval& before, const Interval& next, const double* u, const double* v);
 
   // Projects v; the work of the impulse, or nothing where there is none. A constraint that begins takes A^T v
   // to b'; one that goes on changes A^T v by the jump of its b' only, so that Baumgarte's decay of what it
-  // had is left alone. `beginning`: general constraints begin.
+  // had is left alone.
   enum class General { begin, go_on };
   std::optional<double> project(const Interval& interval, General general, VectorMap v);
 

@@ -10,7 +10,8 @@ namespace rheo::test {
 
 constexpr int push_handle = 0, grab_handle = 1, brush_handle = 2;
 
-// 0.1 m x 0.05 m, soft, fixed at the bottom, its own weight and a pulse of pressure on top.
+// 0.1 m x 0.05 m, soft, fixed at the bottom and for a while on the left, its own weight and a pulse of
+// pressure on top.
 inline Scene live_block(Mass mass, int nx = 11, int ny = 7) {
   Scene scene;
   scene.mesh = rectangle({0.1, 0.05}, nx, ny, Diagonal::alternating);
@@ -18,6 +19,8 @@ inline Scene live_block(Mass mass, int nx = 11, int ny = 7) {
   scene.material = {400.0, 150.0, 400.0, 60.0, 1000.0, mass};
   scene.body_acceleration = {0.0, -0.1};
   scene.fixes.push_back({nodes_of(scene.mesh.edge_groups.at("bottom")), Axis::both, {}, "floor"});
+  // Let go between two ticks.
+  scene.fixes.push_back({nodes_of(scene.mesh.edge_groups.at("left")), Axis::x, {0.0, 0.0615}, "clamp"});
   Traction pulse;
   pulse.edges = scene.mesh.edge_groups.at("top");
   pulse.keys = {{0.0, {0.0, 0.0}}, {0.023, {0.0, -4.0}}, {0.05, {0.0, 0.0}}};

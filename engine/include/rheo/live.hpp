@@ -27,7 +27,9 @@
 // Not here clocks and waiting (the caller's), other materials between ticks, contact
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
