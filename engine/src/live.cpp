@@ -52,12 +52,13 @@ Vec2 Live::traction(int handle) const {
 }
 
 std::optional<Divergence> Live::tick() {
+  if (diverged_) return diverged_;
   const double begin = time();
   const double end = static_cast<double>(ticks_ + 1) / rate_;
   if (hands_->begin_tick(begin, end)) simulation_->hands_changed();
-  auto diverged = simulation_->advance(end);
-  if (!diverged) ++ticks_;
-  return diverged;
+  diverged_ = simulation_->advance(end);
+  if (!diverged_) ++ticks_;
+  return diverged_;
 }
 
 double Live::time() const {

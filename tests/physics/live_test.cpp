@@ -262,7 +262,10 @@ TEST(Live, DivergenceIsAStatus) {
     diverged = live.tick();
   }
   ASSERT_TRUE(diverged);
+  live.push(push_handle, {1.0, 1.0});
   EXPECT_EQ(live.tick()->t, diverged->t);
+  EXPECT_EQ(live.time(), diverged->t);
+  for (const double x : live.simulation().u()) EXPECT_TRUE(std::isfinite(x));
 }
 
 TEST(Live, AMistakeInAHandleIsOneLine) {

@@ -108,6 +108,7 @@ class Live {
   std::unique_ptr<Simulation> simulation_;
   double rate_ = 0.0;
   std::int64_t ticks_ = 0;
+  std::optional<Divergence> diverged_;
 };
 
 }  // namespace rheo
