@@ -73,6 +73,8 @@ Json read_files_of(const std::vector<Fingerprint>& files) {
 Json counters_of(const rheo::Counters& counters) {
   return {{"steps", counters.steps},
           {"force_evaluations", counters.force_evaluations},
+          {"branch_updates", counters.branch_updates},
+          {"displacement_updates", counters.displacement_updates},
           {"mass_solves", counters.mass_solves},
           {"constraint_solves", counters.constraint_solves},
           {"projections", counters.projections},

@@ -103,18 +103,22 @@ void AssembledBody::evaluate(std::span<const double> x, const Forcing& forcing, 
 }
 
 void AssembledBody::fma(double h, std::span<const double> x, std::span<const double> base,
-                        const Forcing& forcing, std::span<double> out, Result) {
+                        const Forcing& forcing, std::span<double> out, Result result) {
   evaluated_ = false;  // the caller is about to change the state
   evaluate(x, forcing, work_);
   const Layout& layout = model_.layout;
   const Material& material = model_.material;
   const std::size_t part = layout.part;
   const double* v = x.data() + layout.v();
-  for (std::size_t i = 0; i < part; ++i) {
-    out[layout.u() + i] = base[layout.u() + i] + h * v[i];
-    out[layout.v() + i] = base[layout.v() + i] + h * work_.acceleration[i];
+  // Only Baumgarte's terms feed on u.
+  if (result == Result::step || !interval_->solver->columns().empty()) {
+    ++counters_.displacement_updates;
+    for (std::size_t i = 0; i < part; ++i) out[layout.u() + i] = base[layout.u() + i] + h * v[i];
   }
+  for (std::size_t i = 0; i < part; ++i)
+    out[layout.v() + i] = base[layout.v() + i] + h * work_.acceleration[i];
   const auto branch = [&](std::size_t offset, double ela, double decay) {
+    ++counters_.branch_updates;
     const double* w = x.data() + offset;
     for (std::size_t i = 0; i < part; ++i)
       out[offset + i] = base[offset + i] + h * (ela * v[i] - decay * w[i]);

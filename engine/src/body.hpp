@@ -16,6 +16,7 @@
 #include <memory>
 #include <vector>
 
+#include "aligned_vector.hpp"
 #include "constraints.hpp"
 #include "model.hpp"
 #include "motion.hpp"
@@ -97,7 +98,7 @@ class Body : public LinearOperator {
   double omega_;
   const Interval* interval_ = nullptr;
   const Vector* base_ = nullptr;
-  std::vector<double> state_;
+  AlignedVector state_;
   Counters counters_;
 };
 

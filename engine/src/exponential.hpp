@@ -27,6 +27,7 @@
 #include <array>
 #include <vector>
 
+#include "aligned_vector.hpp"
 #include "rheo/integrator.hpp"
 
 namespace rheo {
@@ -76,7 +77,7 @@ class Exponential final : public Integrator {
   double shortening_ = 1.0;                 // of the longest part, after a failure
   std::vector<double> coefficients_;        // of V_k, signs and exp(-H s) included
   std::vector<double> remainders_;          // sum over j >= k of |coefficient_j| growth^(j - k)
-  std::vector<double> a_, b_, sum_;         // V_k for odd and even k, the sum so far
+  AlignedVector a_, b_, sum_;               // V_k for odd and even k, the sum so far
   std::array<double, 4> c_{}, c_before_{};  // of V_k and V_{k-1}: c_j / H^j
   std::vector<double> scale_;               // size of y so far
   std::vector<double> peak_;                // of the terms of this sum

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "aligned_vector.hpp"
 #include "exponential.hpp"
 
 namespace rheo {
@@ -70,7 +71,7 @@ class Rk4 final : public Integrator {
   explicit Rk4(std::size_t size) : a_(size), b_(size) {}
 
  private:
-  std::vector<double> a_, b_;
+  AlignedVector a_, b_;
 };
 
 }  // namespace

@@ -101,7 +101,7 @@ Model::Model(const Mesh& mesh, const Material& m, Assembly assembly) : material(
   layout.lambda = m.lambda_ela > 0.0;
   layout.mu = m.mu_ela > 0.0;
   if (assembly == Assembly::edges) {
-    edges = std::make_unique<EdgeForce>(std::make_shared<EdgeForm>(mesh), best_simd_level());
+    edges = std::make_unique<EdgeForce>(std::make_shared<EdgeForm>(mesh, combined(m)), best_simd_level());
   } else {
     if (layout.lambda) j_lambda = connection_matrix(mesh, Tensor::lambda);
     if (layout.mu) j_mu = connection_matrix(mesh, Tensor::mu);

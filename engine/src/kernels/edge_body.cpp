@@ -1,7 +1,6 @@
 #include "kernels/edge_body.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace rheo {
@@ -44,7 +43,9 @@ EdgeBody::EdgeBody(const Model& model, const EdgeForce& force, int threads)
       team_(form_.blocks.size(), threads > 0 ? threads : paying_threads(form_.nodes)),
       sums_(form_.blocks.size()) {
   const auto n = static_cast<std::size_t>(form_.nodes);
-  state_.assign(8 * n, 0.0);
+  const Material& m = model.material;
+  elastic_ = form_.moduli && m.lambda_rate() == 0.0 && m.mu_rate() == 0.0;
+  state_.assign((row() + (elastic_ ? 2 : 4)) * n, 0.0);
   mass_.resize(2 * n);
   for (std::size_t k = 0; k < n; ++k) mass_[2 * k] = mass_[2 * k + 1] = model.node_mass[form_.mesh_node[k]];
 
@@ -55,9 +56,14 @@ EdgeBody::EdgeBody(const Model& model, const EdgeForce& force, int threads)
   loads_.reserve(2 * n);
   held_.reserve(2 * n);
   find_block_begins(form_, form_.corners, corner_begin_);
-  const Material& m = model.material;
-  parts_ = {StatePart{4 * n, smallest_share(model)}, StatePart{2 * n, 1.0}, StatePart{2 * n, 1.0}};
+  parts_ = {StatePart{row() * n, form_.moduli ? 1.0 : smallest_share(model)}, StatePart{2 * n, 1.0}};
+  if (!elastic_) parts_.push_back({2 * n, 1.0});
   for (int axis = 0; axis < 2; ++axis) {
+    if (form_.moduli) {
+      material_.growth[axis] = 1.0;
+      material_.decay[axis] = std::max(m.lambda_rate(), m.mu_rate());
+      continue;
+    }
     material_.growth[axis] = m.lambda_ela;
     material_.growth[2 + axis] = m.mu_ela;
     material_.decay[axis] = m.lambda_rate();
@@ -80,8 +86,15 @@ void EdgeBody::load(std::span<const double> y) {
     const auto node = static_cast<std::size_t>(form_.mesh_node[k]);
     for (std::size_t axis = 0; axis < 2; ++axis) {
       const std::size_t i = 2 * node + axis;
-      state_[p() + 4 * k + axis] = layout.lambda ? y[layout.w_lambda() + i] : 0.0;
-      state_[p() + 4 * k + 2 + axis] = layout.mu ? y[layout.w_mu() + i] : 0.0;
+      double* const pk = state_.data() + p() + row() * k;
+      if (!form_.moduli) {
+        pk[axis] = y[layout.w_lambda() + i];
+        pk[2 + axis] = y[layout.w_mu() + i];
+      } else if (!elastic_) {
+        pk[axis] = layout.lambda ? y[layout.w_lambda() + i] / form_.moduli->lambda
+                   : layout.mu   ? y[layout.w_mu() + i] / form_.moduli->mu
+                                 : 0.0;
+      }
       state_[v() + 2 * k + axis] = y[layout.v() + i];
       state_[u() + 2 * k + axis] = y[layout.u() + i];
     }
@@ -94,8 +107,9 @@ void EdgeBody::store(std::span<double> y) const {
     const auto node = static_cast<std::size_t>(form_.mesh_node[k]);
     for (std::size_t axis = 0; axis < 2; ++axis) {
       const std::size_t i = 2 * node + axis;
-      if (layout.lambda) y[layout.w_lambda() + i] = state_[p() + 4 * k + axis];
-      if (layout.mu) y[layout.w_mu() + i] = state_[p() + 4 * k + 2 + axis];
+      const double* const pk = state_.data() + p() + row() * k;
+      if (layout.lambda) y[layout.w_lambda() + i] = form_.moduli ? form_.moduli->lambda * pk[axis] : pk[axis];
+      if (layout.mu) y[layout.w_mu() + i] = form_.moduli ? form_.moduli->mu * pk[axis] : pk[2 + axis];
       y[layout.v() + i] = state_[v() + 2 * k + axis];
       y[layout.u() + i] = state_[u() + 2 * k + axis];
     }
@@ -147,7 +161,7 @@ void EdgeBody::sweep_block(const Sweep& sweep, std::size_t block) const {
       sweep.x.data() + p(),    sweep.x.data() + v(),
       sweep.base.data() + p(), sweep.base.data() + v(),
       sweep.out.data() + p(),  sweep.out.data() + v(),
-      sweep.base.data() + u(), sweep.result == Result::step ? sweep.out.data() + u() : nullptr};
+      sweep.base.data() + u(), sweep.result == Result::step && !elastic_ ? sweep.out.data() + u() : nullptr};
   edge_force_.sweep()(form_, inverse_mass_.data(), material_, h, arrays, b.first_run, b.last_run);
   double* out_v = sweep.out.data() + v();
   edge_force_.subtract_boundary(h, inverse_mass_.data(), sweep.x.data() + p(), out_v, corner_begin_[block],
@@ -177,7 +191,12 @@ void EdgeBody::fma(double h, std::span<const double> x, std::span<const double> 
 // What sweep k overwrites (the argument of sweep k - 1, or the base) was read in the block and in those
 // beside it before: the team's order.
 void EdgeBody::chain(std::span<const Sweep> sweeps) {
-  counters_.force_evaluations += static_cast<std::int64_t>(sweeps.size());
+  const auto count = static_cast<std::int64_t>(sweeps.size());
+  counters_.force_evaluations += count;
+  counters_.branch_updates += elastic_ ? 0 : form_.moduli ? count : 2 * count;
+  for (const Sweep& sweep : sweeps) {
+    if (elastic_ || sweep.result == Result::step) ++counters_.displacement_updates;
+  }
   team_.chain(sweeps.size(),
               [&](std::size_t sweep, std::size_t block) { sweep_block(sweeps[sweep], block); });
 }
@@ -190,23 +209,28 @@ EdgeBody::Sums EdgeBody::sums_of(const EdgeForm::Block& block) const {
   Sums sums;
   for (std::int32_t r = block.first_run; r < block.last_run; ++r) {
     const EdgeForm::Run& run = form_.runs[r];
-    const double* s = form_.s.data() + 3 * run.edge;
-    const std::uint32_t* offset = form_.offset.data() + run.edge;
     for (std::size_t i = static_cast<std::size_t>(run.first); i < static_cast<std::size_t>(run.last); ++i) {
-      const double* pi = xp + 4 * i;
+      const double* pi = xp + row() * i;
       const double* vi = xv + 2 * i;
       sums.kinetic += mass_[2 * i] * (vi[0] * vi[0] + vi[1] * vi[1]);
-      for (std::int32_t k = 0; k < run.valence; ++k, s += 3, ++offset) {
-        if (*offset < 4 * i) continue;  // each edge once
-        const double* pj = xp + *offset;
-        const double* vj = xv + *offset / 2;
-        const double lx = pj[0] - pi[0], ly = pj[1] - pi[1], mx = pj[2] - pi[2], my = pj[3] - pi[3];
+      const EdgeForm::Edges edges = run.edges_of(static_cast<std::int64_t>(i));
+      auto e = static_cast<std::size_t>(edges.edge);
+      for (std::int32_t k = 0; k < run.valence; ++k, e += static_cast<std::size_t>(edges.stride)) {
+        const std::size_t offset = form_.offset[e];
+        if (offset < row() * i) continue;  // each edge once
+        const double* level = form_.level.data() + row() * e;
+        const double mixed = form_.mixed[e];
+        const double* pj = xp + offset;
+        const double* vj = xv + 2 * (offset / row());
         const double dx = vj[0] - vi[0], dy = vj[1] - vi[1];
-        const double slx = (s[0] + s[1]) * lx + s[2] * ly, sly = s[2] * lx + (s[0] - s[1]) * ly;
-        const double smx = (3 * s[0] + s[1]) * mx + s[2] * my, smy = s[2] * mx + (3 * s[0] - s[1]) * my;
+        const double lx = pj[0] - pi[0], ly = pj[1] - pi[1];
+        const double slx = level[0] * lx + mixed * ly, sly = mixed * lx + level[1] * ly;
         sums.ll -= lx * slx + ly * sly;
-        sums.mm -= mx * smx + my * smy;
         sums.vl -= dx * slx + dy * sly;
+        if (form_.moduli) continue;
+        const double mx = pj[2] - pi[2], my = pj[3] - pi[3];
+        const double smx = level[2] * mx + mixed * my, smy = mixed * mx + level[3] * my;
+        sums.mm -= mx * smx + my * smy;
         sums.vm -= dx * smx + dy * smy;
       }
     }
@@ -218,51 +242,62 @@ EdgeBody::Sums EdgeBody::sums_of(const EdgeForm::Block& block) const {
 EdgeBody::NodeForce EdgeBody::force_at(std::size_t node) const {
   const double* xp = state_.data() + p();
   const double* xv = state_.data() + v();
-  // w and w' of a node, 4 numbers each.
-  using Quantity = std::array<double, 8>;
+  const std::size_t row_size = row();
+  // p and p' of a node, a row each.
+  struct Rows {
+    std::array<double, 4> p{}, rate{};
+  };
   const auto at = [&](std::size_t i) {
-    Quantity q;
-    for (std::size_t c = 0; c < 4; ++c) {
-      q[c] = xp[4 * i + c];
-      q[4 + c] = material_.growth[c] * xv[2 * i + c % 2] - material_.decay[c] * q[c];
+    Rows rows;
+    for (std::size_t c = 0; c < row_size; ++c) {
+      rows.p[c] = xp[row_size * i + c];
+      rows.rate[c] = material_.growth[c] * xv[2 * i + c % 2] - material_.decay[c] * rows.p[c];
     }
-    return q;
+    return rows;
+  };
+  const auto difference = [&](const Rows& a, const Rows& b) {
+    Rows d;
+    for (std::size_t c = 0; c < row_size; ++c) {
+      d.p[c] = a.p[c] - b.p[c];
+      d.rate[c] = a.rate[c] - b.rate[c];
+    }
+    return d;
   };
   NodeForce result;
-  const auto add = [&](const Quantity& d, double s0, double s1, double s2) {
-    const auto part = [&](const double* w, std::array<double, 2>& f) {
-      f[0] += s0 * (w[0] + 3 * w[2]) + s1 * (w[0] + w[2]) + s2 * (w[1] + w[3]);
-      f[1] += s0 * (w[1] + 3 * w[3]) - s1 * (w[1] + w[3]) + s2 * (w[0] + w[2]);
-    };
-    part(d.data(), result.force);
-    part(d.data() + 4, result.rate);
-  };
   const auto run = std::upper_bound(
       form_.runs.begin(), form_.runs.end(), node,
       [](std::size_t i, const EdgeForm::Run& r) { return i < static_cast<std::size_t>(r.last); });
-  const auto first = static_cast<std::size_t>(run->edge) +
-                     (node - static_cast<std::size_t>(run->first)) * static_cast<std::size_t>(run->valence);
-  const Quantity own = at(node);
-  for (std::size_t k = first; k < first + static_cast<std::size_t>(run->valence); ++k) {
-    Quantity d = at(form_.offset[k] / 4);
-    for (std::size_t c = 0; c < d.size(); ++c) d[c] -= own[c];
-    add(d, form_.s[3 * k], form_.s[3 * k + 1], form_.s[3 * k + 2]);
+  const EdgeForm::Edges edges = run->edges_of(static_cast<std::int64_t>(node));
+  const Rows own = at(node);
+  for (std::int32_t k = 0; k < run->valence; ++k) {
+    const auto edge = static_cast<std::size_t>(edges.edge + k * edges.stride);
+    const Rows d = difference(at(form_.offset[edge] / row_size), own);
+    const double* level = form_.level.data() + row_size * edge;
+    const double mixed = form_.mixed[edge];
+    // Rows of two have nothing in their third and fourth number.
+    const auto add = [&](const std::array<double, 4>& w, std::array<double, 2>& f) {
+      f[0] += level[0] * w[0] + mixed * (w[1] + w[3]);
+      f[1] += level[1] * w[1] + mixed * (w[0] + w[2]);
+      if (row_size < 4) return;
+      f[0] += level[2] * w[2];
+      f[1] += level[3] * w[3];
+    };
+    add(d.p, result.force);
+    add(d.rate, result.rate);
   }
   const auto by_node = [](const EdgeForm::Corner& c, std::size_t i) {
     return static_cast<std::size_t>(c.node) < i;
   };
   for (auto c = std::lower_bound(form_.corners.begin(), form_.corners.end(), node, by_node);
        c != form_.corners.end() && static_cast<std::size_t>(c->node) == node; ++c) {
-    const Quantity next = at(static_cast<std::size_t>(c->next));
-    const Quantity previous = at(static_cast<std::size_t>(c->previous));
-    const auto part = [&](std::size_t o, std::array<double, 2>& f) {
-      const double dx = (next[o] - previous[o]) - (next[o + 2] - previous[o + 2]);
-      const double dy = (next[o + 1] - previous[o + 1]) - (next[o + 3] - previous[o + 3]);
-      f[0] += form_.quarter_thickness * dy;
-      f[1] -= form_.quarter_thickness * dx;
+    const Rows d =
+        difference(at(static_cast<std::size_t>(c->next)), at(static_cast<std::size_t>(c->previous)));
+    const auto add = [&](const std::array<double, 4>& w, std::array<double, 2>& f) {
+      f[0] += form_.corner_factor * (w[1] - w[3]);
+      f[1] -= form_.corner_factor * (w[0] - w[2]);
     };
-    part(0, result.force);
-    part(4, result.rate);
+    add(d.p, result.force);
+    add(d.rate, result.rate);
   }
   return result;
 }
@@ -282,30 +317,38 @@ EnergySample EdgeBody::sample(double t) {
   }
   // x^T times the boundary's part of F, (h / 4) rot(w_next - w_previous): + for lambda, - for mu.
   for (const EdgeForm::Corner& c : form_.corners) {
-    const double* next = xp + 4 * static_cast<std::size_t>(c.next);
-    const double* previous = xp + 4 * static_cast<std::size_t>(c.previous);
-    const double* pi = xp + 4 * static_cast<std::size_t>(c.node);
+    const double* next = xp + row() * static_cast<std::size_t>(c.next);
+    const double* previous = xp + row() * static_cast<std::size_t>(c.previous);
+    const double* pi = xp + row() * static_cast<std::size_t>(c.node);
     const double* vi = xv + 2 * static_cast<std::size_t>(c.node);
-    std::array<double, 4> d;
-    for (int k = 0; k < 4; ++k) d[k] = next[k] - previous[k];
-    const double q = form_.quarter_thickness;
-    ll += q * (pi[0] * d[1] - pi[1] * d[0]);
-    mm -= q * (pi[2] * d[3] - pi[3] * d[2]);
-    vl += q * (vi[0] * d[1] - vi[1] * d[0]);
-    vm -= q * (vi[0] * d[3] - vi[1] * d[2]);
+    const double q = form_.corner_factor;
+    const double lx = next[0] - previous[0], ly = next[1] - previous[1];
+    ll += q * (pi[0] * ly - pi[1] * lx);
+    vl += q * (vi[0] * ly - vi[1] * lx);
+    if (form_.moduli) continue;
+    const double mx = next[2] - previous[2], my = next[3] - previous[3];
+    mm -= q * (pi[2] * my - pi[3] * mx);
+    vm -= q * (vi[0] * my - vi[1] * mx);
   }
 
   EnergySample e;
   e.kinetic = 0.5 * kinetic;
-  const auto branch = [&](double quadratic, double with_v, double ela, double vis, double decay) {
-    if (ela == 0.0) return;
-    e.stored += 0.5 * quadratic / ela;
-    if (std::isinf(vis)) return;
-    e.dissipated += quadratic / vis;
-    e.dissipated_rate += 2.0 * (ela * with_v - decay * quadratic) / vis;
-  };
-  branch(ll, vl, material.lambda_ela, material.lambda_vis, material.lambda_rate());
-  branch(mm, vm, material.mu_ela, material.mu_vis, material.mu_rate());
+  if (form_.moduli) {
+    // w_l^T J_l w_l / lambda_vis + w_m^T J_m w_m / mu_vis = rate q^T K q
+    const double rate = material_.decay[0];
+    e.stored = 0.5 * ll;
+    e.dissipated = rate * ll;
+    e.dissipated_rate = 2.0 * rate * (vl - rate * ll);
+  } else {
+    const auto branch = [&](double quadratic, double with_v, double ela, double vis, double decay) {
+      e.stored += 0.5 * quadratic / ela;
+      if (std::isinf(vis)) return;
+      e.dissipated += quadratic / vis;
+      e.dissipated_rate += 2.0 * (ela * with_v - decay * quadratic) / vis;
+    };
+    branch(ll, vl, material.lambda_ela, material.lambda_vis, material.lambda_rate());
+    branch(mm, vm, material.mu_ela, material.mu_vis, material.mu_rate());
+  }
   resample(t, e);
   return e;
 }

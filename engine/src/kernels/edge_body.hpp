@@ -1,5 +1,8 @@
 // A lumped body with eliminated constraints by the edge form (edge_form.hpp): one fused sweep an evaluation.
 //
+// Branches that relax at one rate, or one branch alone, are advanced as one; branches that never relax are
+// not advanced at all: their residual forces are the moduli times u (a scene starts from u = 0, w = 0).
+//
 // Not here consistent mass, general constraints: AssembledBody
 #pragma once
 
@@ -37,10 +40,11 @@ class EdgeBody final : public Body {
   void reaction_at(double t, std::span<const HeldDof> held, Vector& out) override;
 
  private:
-  // The state's parts: p (n x 4), v (n x 2), u (n x 2).
+  // The state's parts: p (n x row), v (n x 2), u (n x 2; p itself where nothing relaxes).
+  std::size_t row() const { return static_cast<std::size_t>(form_.row); }
   std::size_t p() const { return 0; }
-  std::size_t v() const { return 4 * static_cast<std::size_t>(form_.nodes); }
-  std::size_t u() const { return 6 * static_cast<std::size_t>(form_.nodes); }
+  std::size_t v() const { return row() * static_cast<std::size_t>(form_.nodes); }
+  std::size_t u() const { return elastic_ ? 0 : v() + 2 * static_cast<std::size_t>(form_.nodes); }
   std::size_t slot(int dof) const {
     return 2 * static_cast<std::size_t>(form_.kernel_node[dof / 2]) + dof % 2;
   }
@@ -54,7 +58,7 @@ class EdgeBody final : public Body {
   };
   NodeForce force_at(std::size_t node) const;
 
-  // Sums over a block's edges and nodes, for the energies.
+  // Sums over a block's edges and nodes, for the energies; combined branches: ll and vl with K for both.
   struct Sums {
     double ll = 0.0, mm = 0.0, vl = 0.0, vm = 0.0;  // x^T J w: w_l with itself, w_m likewise, v with both
     double kinetic = 0.0;                           // v^T M v
@@ -66,9 +70,10 @@ class EdgeBody final : public Body {
   BlockTeam team_;
   std::vector<Sums> sums_;  // by block: added up in their order, whatever the number of threads
   SweepMaterial material_;
-  std::array<StatePart, 3> parts_;
-  std::vector<double> mass_;          // n x 2, kernel order
-  std::vector<double> inverse_mass_;  // n x 2, zero where held
+  bool elastic_ = false;  // combined, and nothing relaxes
+  std::vector<StatePart> parts_;
+  std::vector<double> mass_;    // n x 2, kernel order
+  AlignedVector inverse_mass_;  // n x 2, zero where held
 
   // External forces by entry: only where there are any.
   struct Load {

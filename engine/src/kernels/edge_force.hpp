@@ -1,6 +1,6 @@
 // The rheological force by the edge form alone: F = J_lambda w_lambda + J_mu w_mu.
 //
-// Shapes   p: n x 4 (l_x, l_y, m_x, m_y) in the kernel's order, force: n x 2 likewise; stiffness: 2n, mesh's
+// Shapes   p: n x row (edge_form.hpp) in the kernel's order, force: n x 2 likewise; stiffness: 2n, mesh's
 // order
 #pragma once
 
@@ -22,7 +22,7 @@ class EdgeForce {
 
   void apply(const double* p, double* force) const;
 
-  // (lambda J_lambda + mu J_mu) x
+  // (lambda J_lambda + mu J_mu) x; where the branches are combined, for multiples of their moduli only
   void stiffness(double lambda, double mu, std::span<const double> x, std::span<double> out) const;
 
   // scale (x, y) times the boundary's part of F subtracted from out, for some of the corners; scale: n x 2.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace rheo {
@@ -15,7 +16,7 @@ constexpr int valence_window = 128;  // nodes that may change places to lengthen
 struct DirectedEdge {
   std::int32_t from = 0;
   std::int32_t to = 0;
-  double s0 = 0.0, s1 = 0.0, s2 = 0.0;
+  double xx = 0.0, yy = 0.0, xy = 0.0;
 };
 
 // Both directions of every edge with its S, sorted by (from, to), each once.
@@ -36,9 +37,9 @@ std::vector<DirectedEdge> directed_edges(const Mesh& mesh) {
       const double xx = scale * q[i].x * q[j].x;
       const double yy = scale * q[i].y * q[j].y;
       const double xy = 0.5 * scale * (q[i].x * q[j].y + q[i].y * q[j].x);
-      const DirectedEdge edge{t[i], t[j], 0.5 * (xx + yy), 0.5 * (xx - yy), xy};
+      const DirectedEdge edge{t[i], t[j], xx, yy, xy};
       edges.push_back(edge);
-      edges.push_back({edge.to, edge.from, edge.s0, edge.s1, edge.s2});
+      edges.push_back({edge.to, edge.from, xx, yy, xy});
     }
   }
   // Counting sort by `from`, then a short sort in each node's list.
@@ -56,9 +57,9 @@ std::vector<DirectedEdge> directed_edges(const Mesh& mesh) {
                      [](const DirectedEdge& a, const DirectedEdge& b) { return a.to < b.to; });
     for (std::size_t k = begin[i]; k < begin[i + 1]; ++k) {
       if (k > begin[i] && edges.back().to == sorted[k].to) {
-        edges.back().s0 += sorted[k].s0;
-        edges.back().s1 += sorted[k].s1;
-        edges.back().s2 += sorted[k].s2;
+        edges.back().xx += sorted[k].xx;
+        edges.back().yy += sorted[k].yy;
+        edges.back().xy += sorted[k].xy;
       } else {
         edges.push_back(sorted[k]);
       }
@@ -103,7 +104,16 @@ std::vector<std::int32_t> narrow_order(std::size_t n, const std::vector<Directed
 
 }  // namespace
 
-EdgeForm::EdgeForm(const Mesh& mesh) : nodes(mesh.node_count()), quarter_thickness(mesh.thickness / 4) {
+std::optional<Combined> combined(const Material& material) {
+  const double a = material.lambda_rate(), b = material.mu_rate();
+  const bool alike = std::abs(a - b) <= 2.0 * std::numeric_limits<double>::epsilon() * std::max(a, b);
+  if (material.lambda_ela > 0.0 && material.mu_ela > 0.0 && !alike) return std::nullopt;
+  return Combined{material.lambda_ela, material.mu_ela};
+}
+
+EdgeForm::EdgeForm(const Mesh& mesh, const std::optional<Combined>& both)
+    : moduli(both), row(both ? 2 : 4), nodes(mesh.node_count()), corner_factor(mesh.thickness / 4) {
+  if (moduli) corner_factor *= moduli->lambda - moduli->mu;
   const auto n = static_cast<std::size_t>(nodes);
   const std::vector<DirectedEdge> edges = directed_edges(mesh);
   std::vector<std::size_t> begin(n + 1, 0);
@@ -130,8 +140,7 @@ EdgeForm::EdgeForm(const Mesh& mesh) : nodes(mesh.node_count()), quarter_thickne
   }
   const std::int32_t block_nodes = std::max(bandwidth, smallest_block);
 
-  offset.reserve(edges.size());
-  s.reserve(3 * edges.size());
+  std::int64_t count = 0;
   for (std::int32_t k = 0; k < nodes; ++k) {
     const std::int32_t node = mesh_node[k];
     const bool new_block = blocks.empty() || k - blocks.back().first_node == block_nodes;
@@ -140,14 +149,39 @@ EdgeForm::EdgeForm(const Mesh& mesh) : nodes(mesh.node_count()), quarter_thickne
       blocks.push_back({run, run, k, k});
     }
     if (new_block || runs.back().valence != valence(node)) {
-      runs.push_back({k, k, valence(node), static_cast<std::int64_t>(offset.size())});
+      count += count % 2;  // wide loads of a pair's edges stay in one cache line
+      runs.push_back({k, k, valence(node), count});
     }
     ++runs.back().last;
     blocks.back().last_run = static_cast<std::int32_t>(runs.size());
     blocks.back().last_node = k + 1;
-    for (std::size_t e = begin[node]; e < begin[node + 1]; ++e) {
-      offset.push_back(4 * static_cast<std::uint32_t>(kernel_node[edges[e].to]));
-      s.insert(s.end(), {edges[e].s0, edges[e].s1, edges[e].s2});
+    count += valence(node);
+  }
+
+  constexpr std::size_t widest_load = 8;
+  const auto width = static_cast<std::size_t>(row);
+  const auto places = static_cast<std::size_t>(count);
+  offset.resize(places);
+  level.resize(width * places);
+  mixed.assign(places + widest_load, 0.0);
+  for (const Run& run : runs) {
+    for (std::int32_t k = run.first; k < run.last; ++k) {
+      const Edges place = run.edges_of(k);
+      auto at = static_cast<std::size_t>(place.edge);
+      for (std::size_t e = begin[mesh_node[k]]; e < begin[mesh_node[k] + 1]; ++e) {
+        const double xx = edges[e].xx, yy = edges[e].yy;
+        const std::array<double, 4> weights{xx, yy, 2 * xx + yy, 2 * yy + xx};
+        offset[at] = static_cast<std::uint32_t>(row * kernel_node[edges[e].to]);
+        if (moduli) {
+          for (std::size_t c = 0; c < 2; ++c)
+            level[2 * at + c] = moduli->lambda * weights[c] + moduli->mu * weights[2 + c];
+          mixed[at] = (moduli->lambda + moduli->mu) * edges[e].xy;
+        } else {
+          std::copy(weights.begin(), weights.end(), level.begin() + static_cast<std::ptrdiff_t>(4 * at));
+          mixed[at] = edges[e].xy;
+        }
+        at += static_cast<std::size_t>(place.stride);
+      }
     }
   }
 

@@ -5,46 +5,82 @@
 //       + boundary: (h / 4) rot(g_next - g_prev),  g = w_lambda - w_mu, rot(x, y) = (y, -x)
 //   S_ij = sum over the triangles of edge ij of h / (4 T) sym((b_i, c_i) (b_j, c_j)^T)
 //
-// With S = s0 I + s1 diag(1, -1) + s2 antidiag(1, 1) this is, in the sums s_k dw over a node's edges,
+// With S = [xx xy; xy yy] this is, in sums over a node's edges,
 //
-//   F_x = sum s0 (dl_x + 3 dm_x) + s1 (dl_x + dm_x) + s2 (dl_y + dm_y)         l = w_lambda, m = w_mu
-//   F_y = sum s0 (dl_y + 3 dm_y) - s1 (dl_y + dm_y) + s2 (dl_x + dm_x)
+//   F_x = sum xx dl_x + (2 xx + yy) dm_x + xy (dl_y + dm_y)         l = w_lambda, m = w_mu
+//   F_y = sum yy dl_y + (2 yy + xx) dm_y + xy (dl_x + dm_x)
 //
-// so that kernels gather 4 numbers a neighbour and keep three sums of 4 lanes a node, combined once at its
-// end.
+// so that kernels gather the row p = (l_x, l_y, m_x, m_y) of a neighbour and keep two sums of 4 lanes a node:
+// of level = (xx, yy, 2 xx + yy, 2 yy + xx) times dp, and of mixed = xy times dp, combined once at its end.
+// Level is kept ready: two numbers more an edge to read, a third of the multiplications less.
+//
+// Where the branches relax at one rate, or only one is there, w_lambda = lambda_ela q and w_mu = mu_ela q
+// with one q' = v - rate q, and one row of two numbers carries both (Combined):
+//
+//   F_x = sum kxx dq_x + kxy dq_y,  F_y = sum kyy dq_y + kxy dq_x
+//   kxx = lambda_ela xx + mu_ela (2 xx + yy),  kyy likewise,  kxy = (lambda_ela + mu_ela) xy
 //
 // Nodes are renumbered (reverse Cuthill-McKee, then by valence inside short stretches): neighbours lie near
-// each other in memory and runs of equal valence need no branch.
+// each other in memory and runs of equal valence need no branch. Nodes of a run are taken two by two, their
+// edges alternate in memory: one wide load serves both.
 //
 // Source   design of this project; J_mu,ij = J_lambda,ij^T + trace(J_lambda,ij) I for linear triangles
-// Units    s0, s1, s2 [m] (thickness included): F in N for w in Pa m
+// Units    S [m] (thickness included): F in N for w in Pa m; k [Pa m]: F in N for q in m
 // Shapes   n nodes in the kernel's own order; directed edges: each edge of the mesh twice
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "aligned_vector.hpp"
+#include "rheo/material.hpp"
 #include "rheo/mesh.hpp"
 
 namespace rheo {
 
+// Both branches as one: the moduli by which a common q is multiplied.
+struct Combined {
+  double lambda = 0.0, mu = 0.0;  // [Pa]
+};
+
+// Whether a material's branches can be combined: equal rates (but for rounding), or a zero modulus.
+std::optional<Combined> combined(const Material& material);
+
 struct EdgeForm {
-  explicit EdgeForm(const Mesh& mesh);
+  explicit EdgeForm(const Mesh& mesh, const std::optional<Combined>& moduli = std::nullopt);
+
+  std::optional<Combined> moduli;
+  int row = 4;  // numbers of a node's row p: 4, or 2 where the branches are combined
 
   int nodes = 0;
   std::vector<std::int32_t> mesh_node;    // n: number in the mesh of the kernel's node
   std::vector<std::int32_t> kernel_node;  // n: its inverse
 
-  // Runs of nodes with one valence; directed edges lie one after the other in node order.
+  // A node's edges: `edge`, `edge` + `stride`, ...
+  struct Edges {
+    std::int64_t edge = 0;
+    std::int64_t stride = 1;
+  };
+  // Runs of nodes with one valence. The first and second node's edges alternate, then the third's and
+  // fourth's, ...; those of a last node without a partner lie in a row. A run begins at an even edge: single
+  // ones in between are empty.
   struct Run {
     std::int32_t first = 0;  // node
     std::int32_t last = 0;   // one past
     std::int32_t valence = 0;
     std::int64_t edge = 0;  // of `first`
+
+    Edges edges_of(std::int64_t node) const {
+      const std::int64_t k = node - first;
+      const bool paired = (k | 1) < last - first;
+      return {edge + (k - k % 2) * valence + (paired ? k % 2 : 0), paired ? 2 : 1};
+    }
   };
   std::vector<Run> runs;
-  std::vector<std::uint32_t> offset;  // by directed edge: 4 x the neighbour's number
-  std::vector<double> s;              // 3 by directed edge: s0, s1, s2
+  std::vector<std::uint32_t> offset;  // by directed edge: `row` x the neighbour's number
+  AlignedVector level;                // `row` by directed edge: xx, yy, 2 xx + yy, 2 yy + xx, or kxx, kyy
+  AlignedVector mixed;  // by directed edge: xy or kxy; some zeros beyond the end, for wide loads
 
   // Boundary passages: previous and next node along the boundary (interior on the left) of a boundary node.
   struct Corner {
@@ -53,7 +89,7 @@ struct EdgeForm {
     std::int32_t next = 0;
   };
   std::vector<Corner> corners;
-  double quarter_thickness = 0.0;  // h / 4
+  double corner_factor = 0.0;  // h / 4, times lambda - mu where combined
 
   // A node's neighbours have numbers within this distance.
   std::int32_t bandwidth = 0;

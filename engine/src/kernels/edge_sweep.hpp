@@ -1,13 +1,15 @@
 // One sweep of the edge form for a lumped body with eliminated constraints: out = base + h (A x + g), fused.
 //
-//   p = (l_x, l_y, m_x, m_y), l = w_lambda, m = w_mu
 //   v' = (f - F(p)) / m,  p' = growth v - decay p,  u' = v
+//   p = (l_x, l_y, m_x, m_y), l = w_lambda, m = w_mu, or, combined, p = (q_x, q_y)
 //
 // The same arithmetic in baseline, AVX2 and AVX-512 code, chosen at run time by what the processor has. Each
 // rounds in its own way; each alone is deterministic, whatever the number of threads.
 //
-// Shapes   p: n x 4, v: n x 2, inverse_mass: n x 2 (zero where a degree of freedom is held), all in the
-// kernel's order Errors   none
+// Shapes   p: n x row (edge_form.hpp), v: n x 2, inverse_mass: n x 2 (zero where a degree of freedom is
+// held),
+//          all in the kernel's order
+// Errors   none
 #pragma once
 
 #include <cstdint>
@@ -28,7 +30,7 @@ struct SweepArrays {
 };
 
 struct SweepMaterial {
-  double growth[4] = {};  // lambda_ela twice, mu_ela twice
+  double growth[4] = {};  // lambda_ela twice, mu_ela twice; combined: 1
   double decay[4] = {};   // the rates
 };
 
@@ -39,9 +41,11 @@ const char* name_of(SimdLevel level);
 SimdLevel best_simd_level();
 bool has_simd_level(SimdLevel level);
 
+// The runs first_run .. last_run - 1.
 using SweepFunction = void (*)(const EdgeForm& form, const double* inverse_mass,
                                const SweepMaterial& material, double h, const SweepArrays& arrays,
                                std::int32_t first_run, std::int32_t last_run);
-SweepFunction sweep_function(SimdLevel level);
+// For rows of 4 or 2.
+SweepFunction sweep_function(SimdLevel level, int row);
 
 }  // namespace rheo
