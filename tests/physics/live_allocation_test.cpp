@@ -15,10 +15,10 @@
 
 namespace {
 
-std::atomic<bool> counting{false};
-std::atomic<long> count{0};
+[[maybe_unused]] std::atomic<bool> counting{false};
+[[maybe_unused]] std::atomic<long> count{0};
 
-void note() {
+[[maybe_unused]] void note() {
   if (counting.load(std::memory_order_relaxed)) count.fetch_add(1, std::memory_order_relaxed);
 }
 

@@ -58,7 +58,7 @@ struct Counters {
   std::int64_t steps = 0;
   std::int64_t force_evaluations = 0;  // products with J_lambda and J_mu together count once
   std::int64_t branch_updates = 0;     // Maxwell branches advanced: 2 an evaluation; 1 where the two relax at
-                                    // one rate or one is off, 0 where nothing relaxes (edge kernel)
+                                       // one rate or one is off, 0 where nothing relaxes (edge kernel)
   std::int64_t displacement_updates = 0;  // times that u was advanced: once a step where no force hangs on it
   std::int64_t mass_solves = 0;           // sparse solves with the consistent mass
   std::int64_t constraint_solves = 0;     // solves for Lagrange multipliers
