@@ -30,6 +30,9 @@
 
 namespace rheo {
 
+class Hands;
+struct HeldDof;
+
 struct Energies {
   double kinetic = 0.0;     // 1/2 v^T M v
   double stored = 0.0;      // 1/2 w_l^T J_l w_l / lambda_ela + 1/2 w_m^T J_m w_m / mu_ela
@@ -78,8 +81,9 @@ enum class Kernel {
 struct SimulationOptions {
   bool allow_unstable = false;  // run a step beyond the stable limit instead of refusing it
   Kernel kernel = Kernel::automatic;
-  bool energies = true;  // without: dissipated and work are not known (NaN), and a step costs less
-  int threads = 0;       // of edge and element; 0: as many as pay. The result does not depend on it.
+  bool energies = true;        // without: dissipated and work are not known (NaN), and a step costs less
+  double stable_share = 0.25;  // of the stable limit: the largest step where the scene gives none
+  int threads = 0;             // of edge and element; 0: as many as pay. The result does not depend on it.
 };
 
 class Simulation {
@@ -141,6 +145,14 @@ class Simulation {
   const Counters& counters() const;
 
  private:
+  friend class Live;
+  // From now on hands act beside the scene; they must outlive this.
+  void attach(Hands& hands);
+  // At the current time they begin to do something else.
+  void hands_changed();
+  // reaction() where only these are looked at.
+  std::span<const double> reaction_at(std::span<const HeldDof> held);
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -131,6 +131,10 @@ void ElementBody::fma(double h, std::span<const double> x, std::span<const doubl
 
 void ElementBody::chain(std::span<const Sweep> sweeps) {
   counters_.force_evaluations += static_cast<std::int64_t>(sweeps.size());
+  counters_.branch_updates += 2 * static_cast<std::int64_t>(sweeps.size());
+  for (const Sweep& sweep : sweeps) {
+    if (sweep.result == Result::step) ++counters_.displacement_updates;
+  }
   team_.chain(sweeps.size(),
               [&](std::size_t sweep, std::size_t block) { sweep_block(sweeps[sweep], block); });
 }
