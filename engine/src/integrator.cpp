@@ -82,6 +82,7 @@ std::unique_ptr<Integrator> make_integrator(IntegratorKind kind, std::size_t siz
       return std::make_unique<Euler>(size);
     case IntegratorKind::exponential:
       return std::make_unique<Exponential>(size, settings);
+    case IntegratorKind::automatic:
     case IntegratorKind::rk4:
       break;
   }

@@ -32,9 +32,18 @@ const Scene& validated(const Scene& scene) {
   return scene;
 }
 
-// Steps of at most `bound` that divide a stretch of time.
-std::int64_t steps_in(double length, double bound) {
-  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / bound * (1.0 - 1e-12))));
+// An integrator that is to be chosen without an accuracy is RK4.
+Scene decided(Scene scene, const std::optional<AccuracyPlan>& plan) {
+  if (plan) return with_plan(std::move(scene), *plan);
+  if (scene.time.integrator == IntegratorKind::automatic) scene.time.integrator = IntegratorKind::rk4;
+  return scene;
+}
+
+// Equal steps that divide a stretch of time: `refinement` times those of at most `bound`.
+std::int64_t steps_in(double length, double refinement, double bound) {
+  constexpr double slack = 1.0 - 1e-12;
+  const double steps = std::max(1.0, std::ceil(length / bound * slack));
+  return static_cast<std::int64_t>(std::ceil(refinement * steps * slack));
 }
 
 // The fastest kernel that the scene's mass and constraints allow, unless one is asked for.
@@ -52,7 +61,8 @@ Assembly assembly_for(const Scene& scene, Kernel kernel) {
 
 struct Simulation::Impl {
   Impl(Scene&& s, const SimulationOptions& options)
-      : scene(std::move(s)),
+      : plan(s.time.accuracy != 0.0 ? std::optional(plan_accuracy(s, options)) : std::nullopt),
+        scene(decided(std::move(s), plan)),
         model(validated(scene).mesh, scene.material, assembly_for(scene, options.kernel)),
         schedule(scene, model),
         spectrum(schedule.spectrum()),
@@ -130,7 +140,7 @@ struct Simulation::Impl {
     }
     // The exponential integrator goes from event to event and output to output.
     bound = given ? settings.step : exponential() ? limit : auto_fraction * limit;
-    if (!(settings.duration / bound < most_steps)) {
+    if (!(settings.refinement * settings.duration / bound < most_steps)) {
       refuse_step(
           fmt::format("step = {}: {:g} s needs {:.2g} steps for the duration of {:g} s, at most {:g} can be "
                       "counted: check the material's moduli and density and the mesh's size",
@@ -280,10 +290,12 @@ struct Simulation::Impl {
     if (model.layout.lambda) decay(model.layout.w_lambda(), model.material.lambda_rate());
     if (model.layout.mu) decay(model.layout.w_mu(), model.material.mu_rate());
     body->load(y);
-    body->counters().steps_at_rest += steps_in(end - time, bound);
+    body->counters().steps_at_rest += steps_to(end);
     time = end;
     changed();
   }
+
+  std::int64_t steps_to(double end) const { return steps_in(end - time, scene.time.refinement, bound); }
 
   std::optional<Divergence> run_segment(double end) {
     const double start = time;
@@ -291,7 +303,7 @@ struct Simulation::Impl {
       pass_at_rest(end);
       return std::nullopt;
     }
-    const std::int64_t n = steps_in(end - start, bound);
+    const std::int64_t n = steps_to(end);
     const double h = (end - start) / static_cast<double>(n);
     largest_step = std::max(largest_step, h);
     sample_now();
@@ -360,6 +372,7 @@ struct Simulation::Impl {
     return diverged;
   }
 
+  std::optional<AccuracyPlan> plan;
   Scene scene;
   Model model;
   Schedule schedule;
@@ -397,6 +410,9 @@ Simulation::~Simulation() = default;
 const Scene& Simulation::scene() const {
   return impl_->scene;
 }
+const std::optional<AccuracyPlan>& Simulation::plan() const {
+  return impl_->plan;
+}
 const Spectrum& Simulation::spectrum() const {
   return impl_->spectrum;
 }
@@ -404,7 +420,7 @@ double Simulation::stable_step() const {
   return impl_->limit;
 }
 double Simulation::step_bound() const {
-  return impl_->bound;
+  return impl_->bound / impl_->scene.time.refinement;
 }
 double Simulation::largest_step() const {
   return impl_->largest_step;
@@ -429,7 +445,7 @@ std::int64_t Simulation::planned_steps() const {
       const double event = impl_->schedule.end(interval);
       const bool passes = event <= target || same_time(event, target);
       const double end = passes ? event : target;
-      steps += steps_in(end - t, impl_->bound);
+      steps += steps_in(end - t, settings.refinement, impl_->bound);
       t = end;
       if (passes) ++interval;
     }

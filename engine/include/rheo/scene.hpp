@@ -91,7 +91,12 @@ struct Probe {
   std::string where;
 };
 
-enum class IntegratorKind { rk4, euler, exponential };
+enum class IntegratorKind {
+  rk4,
+  euler,
+  exponential,
+  automatic  // rk4; with an accuracy the one that is forecast to reach it in the least time
+};
 enum class ConstraintMethod {
   automatic,  // eliminate what can be, Baumgarte for the general ones
   baumgarte   // equation (4) for all of them
@@ -100,9 +105,12 @@ enum class ConstraintMethod {
 struct TimeSettings {
   double duration = 0.0;     // [s], > 0, finite
   double frame_rate = 60.0;  // outputs per second
-  IntegratorKind integrator = IntegratorKind::rk4;
+  IntegratorKind integrator = IntegratorKind::automatic;
   double step = 0.0;         // upper bound [s]; 0: a quarter of the stable limit, exponential: none
+  double refinement = 1.0;   // >= 1: so many times the steps that `step` gives, each stretch rounded up
   double tolerance = 1e-10;  // exponential: relative error of a run
+  double accuracy = 0.0;     // error at the outputs for which step or tolerance is chosen (accuracy.hpp);
+                             // 0: not asked for
   double baumgarte = 20.0;   // omega [1/s]; 0: no stabilisation, constraints hold to the rounding of A^T v
   ConstraintMethod constraints = ConstraintMethod::automatic;
   std::string where;  // for messages about the step: "beam.toml:31: [time]"
@@ -142,6 +150,9 @@ inline constexpr int max_picture_side = 16384;
 
 inline constexpr double finest_tolerance = 1e-13;  // below it rounding rules
 inline constexpr double coarsest_tolerance = 0.1;
+
+inline constexpr double finest_accuracy = 1e-13;
+inline constexpr double coarsest_accuracy = 0.1;
 
 // The settings alone, for values that come from elsewhere than a scene file (a command line, a panel).
 void validate(const TimeSettings& time);

@@ -17,6 +17,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -24,6 +25,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rheo/accuracy.hpp"
 #include "rheo/scene.hpp"
 #include "rheo/stability.hpp"
 
@@ -73,6 +75,9 @@ struct SimulationOptions {
   Kernel kernel = Kernel::automatic;
   bool energies = true;  // without: dissipated and work are not known (NaN), and a step costs less
   int threads = 0;       // of the edge kernel; 0: as many as pay. The result does not depend on it.
+  // Where the scene asks for an accuracy: told at each output which trial run of the choice (1, 2, ...) has
+  // come how far (up to 1).
+  std::function<void(int, double)> planning = {};
 };
 
 class Simulation {
@@ -84,6 +89,10 @@ class Simulation {
 
   const Scene& scene() const;
 
+  // Where the scene asked for an accuracy: what was chosen for it. scene().time then has the choice, and asks
+  // for none.
+  const std::optional<AccuracyPlan>& plan() const;
+
   // The stable limits (over all sets of constraints that the scene goes through) and the largest step that
   // will be used; both infinite for the exponential integrator (then from event to event and output to
   // output), the second unless a step is given.
@@ -92,8 +101,8 @@ class Simulation {
   double step_bound() const;
   // The largest taken so far; 0 before the first.
   double largest_step() const;
-  // Steps from 0 to the scene's duration with outputs at its frame rate. Costs nothing: counted, not run, those at
-  // rest too.
+  // Steps from 0 to the scene's duration with outputs at its frame rate. Costs nothing: counted, not run,
+  // those at rest too.
   std::int64_t planned_steps() const;
 
   // The kernel in use: "csr" or "edge".
