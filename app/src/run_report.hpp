@@ -3,8 +3,9 @@
 //   rheo, compiler, build_type, toolchain, libraries, command_line, working_directory, scene_file, scene (its
 //   text), read_files (path, bytes, fnv1a_64 of each file that the scene names), title
 //   settings: integrator, step_asked (seconds or "auto"), step_bound, largest_step (used), stable_step,
-//   tolerance (exponential only), duration, frame_rate, threads, renderer mesh: nodes, triangles; outputs;
-//   files; counters; seconds by phase; notes; warnings; exit_status; divergence or null
+//   tolerance (exponential only), plan (of an accuracy: as AccuracyPlan, or null), duration, frame_rate,
+//   threads, renderer mesh: nodes, triangles; outputs; files; counters; seconds by phase; notes; warnings;
+//   exit_status; divergence or null
 //
 // Source   FNV-1a: Fowler, Noll and Vo, IETF draft-eastlake-fnv; offset basis 0xcbf29ce484222325, prime
 //          0x100000001b3
