@@ -14,7 +14,7 @@
 #include "exponential.hpp"
 #include "rheo/error.hpp"
 #include "schedule.hpp"
-#include "step_pilot.hpp"
+#include "trial_runs.hpp"
 
 namespace rheo {
 namespace {

@@ -251,5 +251,110 @@ TEST_P(Accuracy, IsMetAndNotAtANeedlessPrice) {
 INSTANTIATE_TEST_SUITE_P(Scenes, Accuracy, testing::ValuesIn(cases()),
                          [](const auto& c) { return c.param.name; });
 
+Scene asking(Scene scene, double accuracy, IntegratorKind integrator = IntegratorKind::automatic) {
+  scene.time.accuracy = accuracy;
+  scene.time.integrator = integrator;
+  return scene;
+}
+
+std::string refusal_of(const Scene& scene) {
+  try {
+    Simulation simulation(scene);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), Error::Kind::input);
+    return error.what();
+  }
+  ADD_FAILURE() << "accepted";
+  return "";
+}
+
+TEST(AccuracyPlan, IsWhatTheSimulationRuns) {
+  Simulation simulation(asking(off_grid_beam(Mass::lumped), 1e-6));
+  const AccuracyPlan plan = simulation.plan().value();
+  EXPECT_EQ(plan.integrator, IntegratorKind::exponential);
+  EXPECT_EQ(simulation.scene().time.integrator, IntegratorKind::exponential);
+  EXPECT_EQ(simulation.scene().time.tolerance, plan.tolerance);
+  EXPECT_EQ(simulation.scene().time.accuracy, 0.0);
+  EXPECT_EQ(plan.trial_evaluations, 0.0);
+  EXPECT_FALSE(Simulation(off_grid_beam(Mass::lumped)).plan());
+}
+
+TEST(AccuracyPlan, RefinesEveryIntervalAlike) {
+  Simulation simulation(asking(off_grid_beam(Mass::lumped), 1e-8, IntegratorKind::rk4));
+  const AccuracyPlan plan = simulation.plan().value();
+  const double most = plan.step / plan.refinement;
+  EXPECT_EQ(simulation.step_bound(), most);
+  // 60 outputs, two events between them; each interval is shorter than the coarsest step.
+  EXPECT_EQ(simulation.planned_steps(), 62 * static_cast<std::int64_t>(std::ceil(plan.refinement)));
+  ASSERT_FALSE(simulation.advance(1.0));
+  Simulation output_by_output(simulation.scene());
+  for (int k = 0; k <= 60; ++k)
+    ASSERT_FALSE(output_by_output.advance(output_time(simulation.scene().time, k)));
+  EXPECT_LE(output_by_output.largest_step(), most * (1.0 + 1e-12));
+  EXPECT_EQ(output_by_output.counters().steps + output_by_output.counters().steps_at_rest,
+            simulation.planned_steps());
+}
+
+TEST(AccuracyPlan, NamesWhatCanBeHadWhereRoundingStandsInTheWay) {
+  for (Scene scene : {off_grid_beam(Mass::lumped), tied(Mass::lumped)}) {
+    scene = asking(scene, 2e-13, IntegratorKind::rk4);
+    scene.time.duration = 40.0;
+    const std::string text = refusal_of(scene);
+    ASSERT_NE(text.find("rounding keeps rk4 from it here; "), std::string::npos) << text;
+    const double named = std::stod(text.substr(text.find("; ") + 2));
+    EXPECT_GT(named, 2e-13);
+    EXPECT_LT(named, 1e-10);
+    scene.time.accuracy = named;
+    EXPECT_NO_THROW(Simulation{scene}) << named;
+  }
+}
+
+TEST(AccuracyPlan, OfABodyThatNeverMovesTakesTheCoarsestSteps) {
+  for (IntegratorKind integrator : {IntegratorKind::rk4, IntegratorKind::euler, IntegratorKind::automatic}) {
+    Scene scene = asking(off_grid_beam(Mass::lumped), 1e-10, integrator);
+    scene.tractions.clear();
+    EXPECT_EQ(Simulation(scene).plan()->refinement, 1.0);
+  }
+}
+
+TEST(AccuracyPlan, TellsHowFarItsTrialRunsAre) {
+  std::vector<int> trials;
+  double furthest = 0.0;
+  SimulationOptions options;
+  options.planning = [&](int trial, double done) {
+    if (trials.empty() || trials.back() != trial) trials.push_back(trial);
+    furthest = std::max(furthest, done);
+  };
+  Simulation simulation(asking(tied(Mass::lumped), 1e-6), options);
+  EXPECT_EQ(trials, (std::vector<int>{1, 2}));
+  EXPECT_EQ(furthest, 1.0);
+}
+
+TEST(AccuracyPlan, ForecastsTheEvaluationsOfARun) {
+  for (const Scene& scene : {paper_beam(Mass::lumped), tied(Mass::consistent)}) {
+    Simulation simulation(asking(scene, 1e-7), {.energies = false});
+    for (std::int64_t k = 0; k < output_count(scene.time); ++k) {
+      ASSERT_FALSE(simulation.advance(output_time(scene.time, k)));
+    }
+    const auto taken = static_cast<double>(simulation.counters().force_evaluations);
+    EXPECT_NEAR(simulation.plan()->evaluations, taken, 0.25 * taken);
+  }
+}
+
+TEST(AccuracyPlan, RefusesWhatContradictsItOrCannotBe) {
+  Scene stepped = asking(off_grid_beam(Mass::lumped), 1e-6);
+  stepped.time.step = 1e-3;
+  EXPECT_NE(refusal_of(stepped).find("leave out the other"), std::string::npos);
+  for (double accuracy : {1e-14, 0.5, -1.0, std::nan("")}) {
+    EXPECT_NE(refusal_of(asking(off_grid_beam(Mass::lumped), accuracy)).find("1e-13 to 0.1 is allowed"),
+              std::string::npos);
+  }
+  EXPECT_NE(refusal_of(asking(tied(Mass::lumped), 1e-6, IntegratorKind::exponential)).find("use \"rk4\""),
+            std::string::npos);
+  const Scene undamped = with_material(off_grid_beam(Mass::lumped), 7, 5, inf, inf);
+  EXPECT_NE(refusal_of(asking(undamped, 1e-2, IntegratorKind::euler)).find("no step of it is stable"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace rheo::test

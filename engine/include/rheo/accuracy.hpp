@@ -4,17 +4,24 @@
 //           |difference to the exact solution| / largest |block| over the run        (Euclidean over the
 //           nodes)
 //
-// exponential: its tolerance bounds the error by itself; asked for is what keeps the run as near below the
-// accuracy as is safe. No trial runs. An integrator of order p: the scene is run at bounds h and h/2, then
-// h/2 and h/4, ... of the step, side by side, and compared at the outputs. With the differences D_k of levels
-// k and k + 1
+// exponential: its tolerance bounds the error by itself; chosen is what keeps the run as near below the
+// accuracy as is safe. No trial runs.
 //
-//   e_{k+1} = D_k / (2^p - 1),  e_k = D_k + e_{k+1},  p confirmed by D_{k-1} / D_k, else one more level
+// An integrator of order p: trial runs of the whole scene at levels k = 0, 1, ... with 2^k times the steps of
+// the coarsest stable step. Their errors e_k are measured against the exponential integrator where it is
+// available and costs no more than they do; else from the differences D_k of levels k and k + 1, both run
+// side by side,
 //
-// are the levels' errors, and the step follows from e ~ h^p, with a safety factor. The trial runs start at
-// the coarsest stable step: no cheaper run could judge it. They cost 3 such runs where the first pair is
-// enough, else 9, 21 ...: less than the run itself where the accuracy wants steps that are many times
-// shorter.
+//   e_{k+1} = D_k / (2^p - 1),  e_k = D_k + e_{k+1}                                  (Richardson)
+//
+// until e_k is small enough or the order shows: e_{k-1} / e_k, or D_{k-1} / D_k, of 2^(0.85 p) at least. The
+// steps then follow from e ~ h^p, with a factor of 1.5 for safety: so many times (refinement) those of the
+// coarsest, in every interval between events and outputs alike, so that no interval's share in the error is
+// guessed. Trial runs cost 1 + 2 + 4 + ... of the coarsest run, and the exponential one: no cheaper run could
+// judge the coarsest. That is less than the run where the accuracy wants many times its steps, and up to four
+// times the run where the order shows only at the very steps that it needs.
+//
+// Rounding is added to the estimate as it was measured, and refuses what it puts out of reach.
 //
 // Where the integrator is free: exponential, unless general constraints stand against it or another one's
 // trial runs and run together are forecast to be cheaper.

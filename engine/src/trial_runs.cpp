@@ -1,4 +1,4 @@
-#include "step_pilot.hpp"
+#include "trial_runs.hpp"
 
 #include <fmt/format.h>
 
