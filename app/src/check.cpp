@@ -14,6 +14,7 @@
 #include "memory_need.hpp"
 #include "option_values.hpp"
 #include "overrides.hpp"
+#include "progress.hpp"
 #include "rheo/deformation.hpp"
 #include "rheo/simulation.hpp"
 #include "run_notes.hpp"
@@ -249,7 +250,10 @@ void check_scene(const Options& options) {
   require_memory(scene, options);
   std::optional<rheo::AccuracyPlan> plan;
   if (scene.time.accuracy > 0.0) {
-    plan = rheo::plan_accuracy(scene, options.simulation);
+    Progress progress(options.quiet ? Verbosity::quiet : Verbosity::normal);
+    rheo::SimulationOptions told = options.simulation;
+    told.planning = trial_runs_on(progress);
+    plan = rheo::plan_accuracy(scene, told);
     scene = rheo::with_plan(std::move(scene), *plan);
   }
   const rheo::TimeSettings& time = scene.time;

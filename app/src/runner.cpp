@@ -148,12 +148,7 @@ void run_scene(const Options& options) {
   require_memory(scene, options);
   timed.emplace(seconds.build);
   rheo::SimulationOptions simulation_options = options.simulation;
-  simulation_options.planning = [&progress, shown = 0](int trial, double done) mutable {
-    constexpr std::int64_t hundredths = 100;
-    if (trial != shown) progress.begin(fmt::format("trial run {}", trial), hundredths);
-    shown = trial;
-    progress.update(static_cast<std::int64_t>(std::floor(done * hundredths)));
-  };
+  simulation_options.planning = trial_runs_on(progress);
   rheo::Simulation simulation(std::move(scene), simulation_options);
   progress.end();
   timed.emplace(seconds.draw);
