@@ -128,6 +128,7 @@ TEST(LiveAllocationCount, SeesAnAllocation) {
 INSTANTIATE_TEST_SUITE_P(Kernels, LiveAllocation,
                          ::testing::Values(Case{"edge", Mass::lumped, Kernel::edge, 1, false},
                                            Case{"edge_on_two_threads", Mass::lumped, Kernel::edge, 2, false},
+                                           Case{"element", Mass::lumped, Kernel::element, 1, false},
                                            Case{"csr", Mass::lumped, Kernel::csr, 1, false},
                                            Case{"csr_consistent", Mass::consistent, Kernel::csr, 1, false},
                                            Case{"csr_constraint", Mass::lumped, Kernel::csr, 1, true}),

@@ -32,6 +32,12 @@ int usable_processors() {
   return std::max(1, omp_get_num_procs());
 }
 
+// Below some thousand nodes a thread's part of a step is too short to share.
+int paying_threads(int nodes, int asked) {
+  constexpr int nodes_a_thread = 1500;
+  return asked > 0 ? asked : std::clamp(nodes / nodes_a_thread, 1, usable_processors());
+}
+
 BlockTeam::BlockTeam(std::size_t blocks, int threads)
     : blocks_(blocks),
       threads_(std::clamp(threads, 1, static_cast<int>(std::max<std::size_t>(1, blocks / fewest_blocks)))),

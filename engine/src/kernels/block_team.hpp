@@ -21,6 +21,9 @@ namespace rheo {
 // How many processors this process may use.
 int usable_processors();
 
+// As many threads as are asked for; 0: as many as pay for a mesh of so many nodes.
+int paying_threads(int nodes, int asked);
+
 class BlockTeam {
  public:
   // `threads` are brought down to what the blocks keep busy; at least 1.

@@ -3,35 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/node_blocks.hpp"
+
 namespace rheo {
 namespace {
 
-// Number of the node that an item belongs to.
-std::size_t node_of(const EdgeForm::Corner& corner) {
-  return static_cast<std::size_t>(corner.node);
-}
-template <class Item>
-std::size_t node_of(const Item& item) {
-  return item.slot / 2;
-}
-
-// Where each block's items begin in a list sorted by node, and the list's end.
-template <class Item>
-void find_block_begins(const EdgeForm& form, const std::vector<Item>& items,
-                       std::vector<std::size_t>& begins) {
-  begins.clear();
-  for (const EdgeForm::Block& block : form.blocks) {
-    const auto at = std::lower_bound(items.begin(), items.end(), static_cast<std::size_t>(block.first_node),
-                                     [](const Item& item, std::size_t node) { return node_of(item) < node; });
-    begins.push_back(static_cast<std::size_t>(at - items.begin()));
-  }
-  begins.push_back(items.size());
-}
-
-// Below some thousand nodes a thread's part of a step is too short to share.
-int paying_threads(int nodes) {
-  constexpr int nodes_a_thread = 1500;
-  return std::clamp(nodes / nodes_a_thread, 1, usable_processors());
+// n x 2, in the kernel's order.
+std::vector<double> entry_masses(const Model& model, const EdgeForm& form) {
+  std::vector<double> masses;
+  masses.reserve(2 * form.mesh_node.size());
+  for (const std::int32_t node : form.mesh_node)
+    masses.insert(masses.end(), {model.node_mass[node], model.node_mass[node]});
+  return masses;
 }
 
 }  // namespace
@@ -40,22 +23,17 @@ EdgeBody::EdgeBody(const Model& model, const EdgeForce& force, int threads)
     : Body(model, 0.0),
       edge_force_(force),
       form_(force.form()),
-      team_(form_.blocks.size(), threads > 0 ? threads : paying_threads(form_.nodes)),
-      sums_(form_.blocks.size()) {
+      team_(form_.blocks.size(), paying_threads(form_.nodes, threads)),
+      sums_(form_.blocks.size()),
+      mass_(entry_masses(model, form_)),
+      terms_(mass_, form_.kernel_node, block_ends(form_.blocks)) {
   const auto n = static_cast<std::size_t>(form_.nodes);
   const Material& m = model.material;
   elastic_ = form_.moduli && m.lambda_rate() == 0.0 && m.mu_rate() == 0.0;
   state_.assign((row() + (elastic_ ? 2 : 4)) * n, 0.0);
-  mass_.resize(2 * n);
-  for (std::size_t k = 0; k < n; ++k) mass_[2 * k] = mass_[2 * k + 1] = model.node_mass[form_.mesh_node[k]];
-
-  external_.assign(2 * n, 0.0);
-  external_rate_.assign(2 * n, 0.0);
-  inverse_mass_.resize(2 * n);
-  // As many as there can be: enter() allocates nothing, and what is not used takes no memory.
-  loads_.reserve(2 * n);
-  held_.reserve(2 * n);
-  find_block_begins(form_, form_.corners, corner_begin_);
+  find_block_begins(
+      block_ends(form_.blocks), form_.corners,
+      [](const EdgeForm::Corner& corner) { return static_cast<std::size_t>(corner.node); }, corner_begin_);
   parts_ = {StatePart{row() * n, form_.moduli ? 1.0 : smallest_share(model)}, StatePart{2 * n, 1.0}};
   if (!elastic_) parts_.push_back({2 * n, 1.0});
   for (int axis = 0; axis < 2; ++axis) {
@@ -118,68 +96,26 @@ void EdgeBody::store(std::span<double> y) const {
 
 void EdgeBody::enter(const Interval& interval, const Vector& base) {
   Body::enter(interval, base);
-  imposed_ = false;
-  std::transform(mass_.begin(), mass_.end(), inverse_mass_.begin(), [](double m) { return 1.0 / m; });
-  held_.clear();
-  for (const HeldDof& h : interval.eliminated) {
-    Polynomial change = interval.course[h.owner][h.dof % 2];
-    change.c[0] = 0.0;
-    held_.push_back({slot(h.dof), h, !change.is_zero()});
-    inverse_mass_[held_.back().slot] = 0.0;
-  }
-  const auto by_slot = [](const auto& x, const auto& z) { return x.slot < z.slot; };
-  std::sort(held_.begin(), held_.end(), by_slot);
-  find_block_begins(form_, held_, held_begin_);
-  loads_.clear();
-  for (int dof = 0; dof < static_cast<int>(model_.layout.part); ++dof) {
-    const double force = interval.force[dof];
-    const double slope = interval.force_rate.size() > 0 ? interval.force_rate[dof] : 0.0;
-    if (force == 0.0 && slope == 0.0) continue;
-    const std::size_t s = slot(dof);
-    loads_.push_back({s, inverse_mass_[s] * force, inverse_mass_[s] * slope, force, slope});
-  }
-  std::sort(loads_.begin(), loads_.end(), by_slot);
-  find_block_begins(form_, loads_, load_begin_);
+  terms_.enter(interval);
 }
 
 void EdgeBody::impose_prescribed(double t) {
-  // Held where they were, their velocity and acceleration are exactly zero.
-  if (!interval_->moving && imposed_) return;
-  for (const Held& h : held_) {
-    if (!h.moves && imposed_) continue;
-    state_[u() + h.slot] = prescribed(h.dof, t, 0);
-    state_[v() + h.slot] = prescribed(h.dof, t, 1);
-  }
-  imposed_ = true;
+  terms_.impose(*this, t, state_.data() + u(), state_.data() + v());
 }
 
 void EdgeBody::sweep_block(const Sweep& sweep, std::size_t block) const {
   const EdgeForm::Block& b = form_.blocks[block];
   const double h = sweep.h;
-  const Forcing& forcing = sweep.forcing;
   const SweepArrays arrays{
       sweep.x.data() + p(),    sweep.x.data() + v(),
       sweep.base.data() + p(), sweep.base.data() + v(),
       sweep.out.data() + p(),  sweep.out.data() + v(),
       sweep.base.data() + u(), sweep.result == Result::step && !elastic_ ? sweep.out.data() + u() : nullptr};
-  edge_force_.sweep()(form_, inverse_mass_.data(), material_, h, arrays, b.first_run, b.last_run);
+  edge_force_.sweep()(form_, terms_.inverse_mass(), material_, h, arrays, b.first_run, b.last_run);
   double* out_v = sweep.out.data() + v();
-  edge_force_.subtract_boundary(h, inverse_mass_.data(), sweep.x.data() + p(), out_v, corner_begin_[block],
+  edge_force_.subtract_boundary(h, terms_.inverse_mass(), sweep.x.data() + p(), out_v, corner_begin_[block],
                                 corner_begin_[block + 1]);
-  const double constant = forcing.weight[0];
-  const double linear = forcing.weight[0] * (forcing.t - interval_->begin) + forcing.weight[1];
-  for (std::size_t k = load_begin_[block]; k < load_begin_[block + 1]; ++k) {
-    out_v[loads_[k].slot] += h * (constant * loads_[k].acceleration + linear * loads_[k].slope);
-  }
-  if (!interval_->moving) return;
-  for (std::size_t k = held_begin_[block]; k < held_begin_[block + 1]; ++k) {
-    if (!held_[k].moves) continue;
-    double a = 0.0;
-    for (int d = 0; d < 4; ++d) {
-      if (forcing.weight[d] != 0.0) a += forcing.weight[d] * prescribed(held_[k].dof, forcing.t, 2 + d);
-    }
-    out_v[held_[k].slot] += h * a;
-  }
+  terms_.add(*this, h, sweep.forcing, out_v, block);
 }
 
 void EdgeBody::fma(double h, std::span<const double> x, std::span<const double> base, const Forcing& forcing,
@@ -239,7 +175,7 @@ EdgeBody::Sums EdgeBody::sums_of(const EdgeForm::Block& block) const {
 }
 
 // Only constrained nodes are asked for, a few: one by one, not by a sweep over the mesh.
-EdgeBody::NodeForce EdgeBody::force_at(std::size_t node) const {
+NodeForce EdgeBody::force_at(std::size_t node) const {
   const double* xp = state_.data() + p();
   const double* xv = state_.data() + v();
   const std::size_t row_size = row();
@@ -354,56 +290,19 @@ EnergySample EdgeBody::sample(double t) {
 }
 
 void EdgeBody::resample(double t, EnergySample& e) {
-  const double* xv = state_.data() + v();
-  const double* xu = state_.data() + u();
-  e.load = e.load_power = e.load_slope = e.load_slope_rate = 0.0;
-  e.constraints = e.constraints_rate = 0.0;
-  const double s = t - interval_->begin;
-  for (const Load& load : loads_) {
-    e.load += (load.force + s * load.force_slope) * xu[load.slot];
-    e.load_power += (load.force + s * load.force_slope) * xv[load.slot];
-    e.load_slope += load.force_slope * xu[load.slot];
-    e.load_slope_rate += load.force_slope * xv[load.slot];
-  }
-  if (interval_->moving) {
-    // R = m b'' + F - f and its slope with F(w') for F(w).
-    for (const Load& load : loads_) {
-      external_[load.slot] = load.force + s * load.force_slope;
-      external_rate_[load.slot] = load.force_slope;
-    }
-    NodeForce at;
-    std::size_t node = mass_.size();
-    for (const Held& h : held_) {
-      if (!h.moves) continue;
-      if (h.slot / 2 != node) at = force_at(node = h.slot / 2);
-      const double a = prescribed(h.dof, t, 2);
-      const double r = mass_[h.slot] * a + at.force[h.slot % 2] - external_[h.slot];
-      const double r_rate =
-          mass_[h.slot] * prescribed(h.dof, t, 3) + at.rate[h.slot % 2] - external_rate_[h.slot];
-      e.constraints += r * xv[h.slot];
-      e.constraints_rate += r_rate * xv[h.slot] + r * a;
-    }
-    for (const Load& load : loads_) external_[load.slot] = external_rate_[load.slot] = 0.0;
-  }
+  terms_.sample(
+      *this, t, state_.data() + u(), state_.data() + v(), [&](std::size_t node) { return force_at(node); },
+      e);
 }
 
 void EdgeBody::reaction(double t, Vector& out) {
-  out.setZero(static_cast<Eigen::Index>(model_.layout.part));
-  reaction_at(t, interval_->eliminated, out);
+  terms_.reaction(
+      *this, t, [&](std::size_t node) { return force_at(node); }, out);
 }
 
 void EdgeBody::reaction_at(double t, std::span<const HeldDof> held, Vector& out) {
-  const double s = t - interval_->begin;
-  for (const Load& load : loads_) external_[load.slot] = load.force + s * load.force_slope;
-  NodeForce at;
-  std::size_t node = mass_.size();
-  for (const HeldDof& h : held) {
-    const std::size_t k = slot(h.dof);
-    if (k / 2 != node) at = force_at(node = k / 2);
-    const double a = interval_->moving ? prescribed(h, t, 2) : 0.0;
-    out[h.dof] = mass_[k] * a + at.force[k % 2] - external_[k];
-  }
-  for (const Load& load : loads_) external_[load.slot] = 0.0;
+  terms_.reaction_at(
+      *this, t, held, [&](std::size_t node) { return force_at(node); }, out);
 }
 
 }  // namespace rheo

@@ -6,12 +6,12 @@
 // Not here consistent mass, general constraints: AssembledBody
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "body.hpp"
 #include "kernels/block_team.hpp"
 #include "kernels/edge_force.hpp"
+#include "kernels/nodal_terms.hpp"
 
 namespace rheo {
 
@@ -45,17 +45,10 @@ class EdgeBody final : public Body {
   std::size_t p() const { return 0; }
   std::size_t v() const { return row() * static_cast<std::size_t>(form_.nodes); }
   std::size_t u() const { return elastic_ ? 0 : v() + 2 * static_cast<std::size_t>(form_.nodes); }
-  std::size_t slot(int dof) const {
-    return 2 * static_cast<std::size_t>(form_.kernel_node[dof / 2]) + dof % 2;
-  }
 
   // One sweep over one block.
   void sweep_block(const Sweep& sweep, std::size_t block) const;
 
-  // Of one node: the force F of the state, and with w' for w.
-  struct NodeForce {
-    std::array<double, 2> force{}, rate{};
-  };
   NodeForce force_at(std::size_t node) const;
 
   // Sums over a block's edges and nodes, for the energies; combined branches: ll and vl with K for both.
@@ -72,27 +65,9 @@ class EdgeBody final : public Body {
   SweepMaterial material_;
   bool elastic_ = false;  // combined, and nothing relaxes
   std::vector<StatePart> parts_;
-  std::vector<double> mass_;    // n x 2, kernel order
-  AlignedVector inverse_mass_;  // n x 2, zero where held
-
-  // External forces by entry: only where there are any.
-  struct Load {
-    std::size_t slot = 0;
-    double acceleration = 0.0;  // force / mass at the interval's begin; 0 where held
-    double slope = 0.0;
-    double force = 0.0, force_slope = 0.0;
-  };
-  std::vector<Load> loads_;
-  struct Held {
-    std::size_t slot = 0;
-    HeldDof dof;
-    bool moves = false;  // in this interval; else v = 0 exactly
-  };
-  std::vector<Held> held_;
-  bool imposed_ = false;  // since the interval began
-  // Where each block's corners, loads and held degrees of freedom begin; one more at the end.
-  std::vector<std::size_t> corner_begin_, load_begin_, held_begin_;
-  std::vector<double> external_, external_rate_;  // n x 2, kernel order: of the loads, else zero
+  std::vector<double> mass_;  // n x 2, kernel order
+  NodalTerms terms_;
+  std::vector<std::size_t> corner_begin_;  // by block, one more at the end
 };
 
 }  // namespace rheo

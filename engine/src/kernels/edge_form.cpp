@@ -6,11 +6,12 @@
 #include <limits>
 #include <numeric>
 
+#include "kernels/node_blocks.hpp"
+#include "kernels/node_order.hpp"
+
 namespace rheo {
 namespace {
 
-constexpr std::int32_t smallest_block =
-    256;                             // nodes: shorter ones cost more in turns than they keep in cache
 constexpr int valence_window = 128;  // nodes that may change places to lengthen runs of equal valence
 
 struct DirectedEdge {
@@ -68,40 +69,6 @@ std::vector<DirectedEdge> directed_edges(const Mesh& mesh) {
   return edges;
 }
 
-// Reverse Cuthill-McKee over every connected part, each from a node far from the middle (two breadth-first
-// passes).
-std::vector<std::int32_t> narrow_order(std::size_t n, const std::vector<DirectedEdge>& edges,
-                                       const std::vector<std::size_t>& begin) {
-  std::vector<std::int32_t> order;
-  order.reserve(n);
-  std::vector<char> seen(n, 0);
-  const auto valence = [&](std::int32_t i) { return begin[i + 1] - begin[i]; };
-  const auto sweep = [&](std::int32_t start, std::vector<std::int32_t>& out) {
-    const std::size_t first = out.size();
-    out.push_back(start);
-    seen[start] = 1;
-    for (std::size_t k = first; k < out.size(); ++k) {
-      const std::size_t before = out.size();
-      for (std::size_t e = begin[out[k]]; e < begin[out[k] + 1]; ++e) {
-        if (seen[edges[e].to]) continue;
-        seen[edges[e].to] = 1;
-        out.push_back(edges[e].to);
-      }
-      std::stable_sort(out.begin() + static_cast<std::ptrdiff_t>(before), out.end(),
-                       [&](std::int32_t a, std::int32_t b) { return valence(a) < valence(b); });
-    }
-  };
-  for (std::size_t i = 0; i < n; ++i) {
-    if (seen[i]) continue;
-    std::vector<std::int32_t> part;
-    sweep(static_cast<std::int32_t>(i), part);
-    for (std::int32_t node : part) seen[node] = 0;
-    sweep(part.back(), order);
-  }
-  std::reverse(order.begin(), order.end());
-  return order;
-}
-
 }  // namespace
 
 std::optional<Combined> combined(const Material& material) {
@@ -120,7 +87,9 @@ EdgeForm::EdgeForm(const Mesh& mesh, const std::optional<Combined>& both)
   for (const DirectedEdge& e : edges) ++begin[e.from + 1];
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
 
-  mesh_node = narrow_order(n, edges, begin);
+  std::vector<std::int32_t> neighbours(edges.size());
+  std::transform(edges.begin(), edges.end(), neighbours.begin(), [](const auto& e) { return e.to; });
+  mesh_node = narrow_order(begin, neighbours);
   const auto valence = [&](std::int32_t node) {
     return static_cast<std::int32_t>(begin[node + 1] - begin[node]);
   };

@@ -4,21 +4,15 @@
 #include <cassert>
 #include <cmath>
 
+#include "kernels/node_blocks.hpp"
+
 namespace rheo {
 namespace {
 
-constexpr std::int32_t smallest_block =
-    256;                                  // nodes: shorter ones cost more in turns than they keep in cache
 constexpr std::int32_t shared_block = 4;  // bandwidths: shorter ones compute too many triangles twice
 
-// Below some thousand nodes a thread's part of a step is too short to share.
-int wanted_threads(int nodes, int asked) {
-  constexpr int nodes_a_thread = 1500;
-  return asked > 0 ? asked : std::clamp(nodes / nodes_a_thread, 1, usable_processors());
-}
-
 std::vector<ElementForm::Block> make_blocks(const ElementForm& form, int threads) {
-  const bool shared = wanted_threads(form.nodes, threads) > 1;
+  const bool shared = paying_threads(form.nodes, threads) > 1;
   return form.blocks(std::max(smallest_block, shared ? shared_block * form.bandwidth : 0));
 }
 
@@ -26,12 +20,6 @@ std::vector<double> twice(const std::vector<double>& by_node) {
   std::vector<double> result;
   result.reserve(2 * by_node.size());
   for (const double x : by_node) result.insert(result.end(), {x, x});
-  return result;
-}
-
-std::vector<std::int32_t> ends(const std::vector<ElementForm::Block>& blocks) {
-  std::vector<std::int32_t> result;
-  for (const ElementForm::Block& block : blocks) result.push_back(block.last_node);
   return result;
 }
 
@@ -65,9 +53,9 @@ ElementBody::ElementBody(const Model& model, const ElementForce& force, int thre
       element_force_(force),
       form_(force.form()),
       blocks_(make_blocks(form_, threads)),
-      team_(blocks_.size(), wanted_threads(form_.nodes, threads)),
+      team_(blocks_.size(), paying_threads(form_.nodes, threads)),
       mass_(twice(form_.node_mass)),
-      terms_(mass_, form_.kernel_node, ends(blocks_)),
+      terms_(mass_, form_.kernel_node, block_ends(blocks_)),
       stretches_(form_.blocks(smallest_block)),
       stretch_team_(stretches_.size(), team_.threads()) {
   const auto n = static_cast<std::size_t>(form_.nodes);
@@ -78,10 +66,6 @@ ElementBody::ElementBody(const Model& model, const ElementForce& force, int thre
   for (const Material& m : form_.materials) materials_.push_back(sweep_material(m));
   forces_.assign(team_.threads() > 1 ? 3 : 1, std::vector<double>(2 * s, 0.0));
   sums_.resize(stretches_.size() * form_.materials.size());
-  slot_force_.assign(2 * s, 0.0);
-  force_.assign(2 * n, 0.0);
-  force_rate_.assign(2 * n, 0.0);
-  p_rate_.assign(4 * s, 0.0);
 }
 
 void ElementBody::load(std::span<const double> y) {
@@ -173,8 +157,7 @@ void ElementBody::sweep_block(const Sweep& sweep, std::size_t block) {
     if (run.slots_a_node > 1) {
       advance_interface(run, sweep.h, arrays, force + 2 * slot);
     } else {
-      const NodeStretch stretch{last - first, arrays, terms_.inverse_mass().data() + 2 * node,
-                                force + 2 * slot};
+      const NodeStretch stretch{last - first, arrays, terms_.inverse_mass() + 2 * node, force + 2 * slot};
       element_force_.sweep().advance(stretch, materials_[run.region], sweep.h);
     }
   }
@@ -183,7 +166,7 @@ void ElementBody::sweep_block(const Sweep& sweep, std::size_t block) {
 
 void ElementBody::advance_interface(const ElementForm::Run& run, double h, const SweepArrays& a,
                                     double* force) {
-  const double* inverse_mass = terms_.inverse_mass().data() + 2 * static_cast<std::size_t>(run.first);
+  const double* inverse_mass = terms_.inverse_mass() + 2 * static_cast<std::size_t>(run.first);
   const double velocity[2] = {a.x_v[0], a.x_v[1]};
   double sum[2] = {};
   for (std::int32_t s = 0; s < run.slots_a_node; ++s) {
@@ -203,14 +186,45 @@ void ElementBody::advance_interface(const ElementForm::Run& run, double h, const
   }
 }
 
-void ElementBody::node_forces(const double* p, std::vector<double>& force) {
-  element_force_.apply(p, slot_force_.data());
-  std::fill(force.begin(), force.end(), 0.0);
-  for (std::size_t s = 0; s < static_cast<std::size_t>(form_.slots); ++s) {
-    const auto node = static_cast<std::size_t>(form_.slot_node[s]);
-    force[2 * node] += slot_force_[2 * s];
-    force[2 * node + 1] += slot_force_[2 * s + 1];
+// Only constrained nodes are asked for, a few: triangle by triangle, not by a sweep over the mesh.
+NodeForce ElementBody::force_at(std::size_t node) const {
+  using Row = std::array<double, 4>;
+  const double* xp = state_.data() + p();
+  const double* xv = state_.data() + v();
+  const auto p_of = [&](std::size_t s) {
+    return Row{xp[4 * s], xp[4 * s + 1], xp[4 * s + 2], xp[4 * s + 3]};
+  };
+  const auto rate_of = [&](std::size_t s) {
+    const SweepMaterial& m = materials_[static_cast<std::size_t>(form_.slot_region[s])];
+    const double* vs = xv + 2 * static_cast<std::size_t>(form_.slot_node[s]);
+    Row rate{};
+    for (std::size_t c = 0; c < 4; ++c) rate[c] = m.growth[c] * vs[c % 2] - m.decay[c] * xp[4 * s + c];
+    return rate;
+  };
+  NodeForce result;
+  for (const std::int32_t e : form_.triangles_at(node)) {
+    const std::array<double, 4>& q = form_.gradient[e];
+    std::array<std::size_t, 3> slots{};
+    double b = 0.0, c = 0.0;  // of this node's corner
+    for (std::size_t k = 0; k < 3; ++k) {
+      slots[k] = form_.offset[e][k] / 4;
+      if (static_cast<std::size_t>(form_.slot_node[slots[k]]) != node) continue;
+      b = k == 0 ? -(q[0] + q[2]) : q[2 * (k - 1)];
+      c = k == 0 ? -(q[1] + q[3]) : q[2 * (k - 1) + 1];
+    }
+    const auto add = [&](const auto& row_of, std::array<double, 2>& f) {
+      const Row w0 = row_of(slots[0]), w1 = row_of(slots[1]), w2 = row_of(slots[2]);
+      const auto dx = [&](std::size_t i) { return q[0] * (w1[i] - w0[i]) + q[2] * (w2[i] - w0[i]); };
+      const auto dy = [&](std::size_t i) { return q[1] * (w1[i] - w0[i]) + q[3] * (w2[i] - w0[i]); };
+      const double div = dx(0) + dy(1);
+      const double xx = div + 2 * dx(2), yy = div + 2 * dy(3), xy = dx(3) + dy(2);
+      f[0] += b * xx + c * xy;
+      f[1] += b * xy + c * yy;
+    };
+    add(p_of, result.force);
+    add(rate_of, result.rate);
   }
+  return result;
 }
 
 // w_l^T J_lambda w_l = sum of div^2, w_m^T J_mu w_m = sum of 2 xx^2 + 2 yy^2 + (xy + yx)^2, by triangle.
@@ -242,7 +256,6 @@ void ElementBody::add_sums(const ElementForm::Block& stretch, std::span<Sums> by
 }
 
 EnergySample ElementBody::sample(double t) {
-  const double* xp = state_.data() + p();
   const double* xv = state_.data() + v();
   const std::size_t regions = form_.materials.size();
   std::fill(sums_.begin(), sums_.end(), Sums{});
@@ -271,24 +284,24 @@ EnergySample ElementBody::sample(double t) {
     branch(total.mm, total.vm, m.mu_ela, m.mu_vis, m.mu_rate());
   }
   for (std::size_t i = 0; i < mass_.size(); ++i) e.kinetic += 0.5 * mass_[i] * xv[i] * xv[i];
-  terms_.sample_loads(t, state_.data() + u(), xv, e);
-  if (terms_.moving()) {
-    for (std::size_t s = 0; s < static_cast<std::size_t>(form_.slots); ++s) {
-      const SweepMaterial& m = materials_[form_.slot_region[s]];
-      const double* vs = xv + 2 * static_cast<std::size_t>(form_.slot_node[s]);
-      for (std::size_t c = 0; c < 4; ++c)
-        p_rate_[4 * s + c] = m.growth[c] * vs[c % 2] - m.decay[c] * xp[4 * s + c];
-    }
-    node_forces(xp, force_);
-    node_forces(p_rate_.data(), force_rate_);
-    terms_.sample_constraints(*this, t, force_.data(), force_rate_.data(), xv, e);
-  }
+  resample(t, e);
   return e;
 }
 
+void ElementBody::resample(double t, EnergySample& e) {
+  terms_.sample(
+      *this, t, state_.data() + u(), state_.data() + v(), [&](std::size_t node) { return force_at(node); },
+      e);
+}
+
 void ElementBody::reaction(double t, Vector& out) {
-  node_forces(state_.data() + p(), force_);
-  terms_.reaction(*this, t, force_.data(), out);
+  terms_.reaction(
+      *this, t, [&](std::size_t node) { return force_at(node); }, out);
+}
+
+void ElementBody::reaction_at(double t, std::span<const HeldDof> held, Vector& out) {
+  terms_.reaction_at(
+      *this, t, held, [&](std::size_t node) { return force_at(node); }, out);
 }
 
 }  // namespace rheo

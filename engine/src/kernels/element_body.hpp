@@ -38,7 +38,9 @@ class ElementBody final : public Body {
   void chain(std::span<const Sweep> sweeps) override;
   std::span<const StatePart> parts() const override { return parts_; }
   EnergySample sample(double t) override;
+  void resample(double t, EnergySample& sample) override;
   void reaction(double t, Vector& out) override;
+  void reaction_at(double t, std::span<const HeldDof> held, Vector& out) override;
 
   // The state's parts: p (s x 4), v (n x 2), u (n x 2).
   std::size_t p() const { return 0; }
@@ -51,8 +53,7 @@ class ElementBody final : public Body {
   // The nodes' part of it, for one node with several slots.
   void advance_interface(const ElementForm::Run& run, double h, const SweepArrays& arrays, double* force);
 
-  // F at the nodes, n x 2, of residual forces p.
-  void node_forces(const double* p, std::vector<double>& force);
+  NodeForce force_at(std::size_t node) const;
 
   // Sums over a stretch's triangles of one region.
   struct Sums {
@@ -75,7 +76,6 @@ class ElementBody final : public Body {
   std::vector<ElementForm::Block> stretches_;
   BlockTeam stretch_team_;
   std::vector<Sums> sums_;
-  std::vector<double> slot_force_, force_, force_rate_, p_rate_;
 };
 
 }  // namespace rheo

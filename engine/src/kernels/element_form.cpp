@@ -126,6 +126,18 @@ ElementForm::ElementForm(const Mesh& mesh, const Regions& regions)
     }
     offset.push_back(corners);
   }
+
+  node_begin.assign(n + 1, 0);
+  for (const Sorted& s : sorted) {
+    for (const std::int32_t node : s.nodes) ++node_begin[static_cast<std::size_t>(node) + 1];
+  }
+  std::partial_sum(node_begin.begin(), node_begin.end(), node_begin.begin());
+  node_triangles.resize(3 * sorted.size());
+  std::vector<std::size_t> next(node_begin.begin(), node_begin.end() - 1);
+  for (std::size_t e = 0; e < sorted.size(); ++e) {
+    for (const std::int32_t node : sorted[e].nodes)
+      node_triangles[next[node]++] = static_cast<std::int32_t>(e);
+  }
 }
 
 std::vector<ElementForm::Block> ElementForm::blocks(std::int32_t smallest) const {

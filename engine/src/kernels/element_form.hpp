@@ -25,6 +25,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "rheo/material.hpp"
@@ -63,6 +64,13 @@ struct ElementForm {
 
   std::vector<std::array<double, 4>> gradient;       // t: b_1, c_1, b_2, c_2
   std::vector<std::array<std::uint32_t, 3>> offset;  // t: 4 x slot of the corners 0, 1, 2
+
+  // A node's triangles, rising.
+  std::span<const std::int32_t> triangles_at(std::size_t node) const {
+    return std::span(node_triangles).subspan(node_begin[node], node_begin[node + 1] - node_begin[node]);
+  }
+  std::vector<std::size_t> node_begin;       // n + 1
+  std::vector<std::int32_t> node_triangles;  // 3t
 
   // A triangle's nodes have numbers within this distance.
   std::int32_t bandwidth = 0;

@@ -5,20 +5,9 @@
 
 namespace rheo {
 
-std::vector<std::int32_t> narrow_order(const Mesh& mesh) {
-  const std::size_t n = mesh.points.size();
-  // Triangles by node.
-  std::vector<std::size_t> begin(n + 1, 0);
-  for (const Triangle& t : mesh.triangles) {
-    for (int node : t) ++begin[static_cast<std::size_t>(node) + 1];
-  }
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<std::int32_t> around(begin.back());
-  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-  for (std::int32_t e = 0; e < mesh.triangle_count(); ++e) {
-    for (int node : mesh.triangles[e]) around[next[node]++] = e;
-  }
-
+std::vector<std::int32_t> narrow_order(std::span<const std::size_t> begin,
+                                       std::span<const std::int32_t> neighbours) {
+  const std::size_t n = begin.size() - 1;
   std::vector<std::int32_t> order;
   order.reserve(n);
   std::vector<char> seen(n, 0);
@@ -31,11 +20,10 @@ std::vector<std::int32_t> narrow_order(const Mesh& mesh) {
       const std::size_t before = out.size();
       const std::int32_t node = out[k];
       for (std::size_t e = begin[node]; e < begin[node + 1]; ++e) {
-        for (std::int32_t other : mesh.triangles[around[e]]) {
-          if (seen[other]) continue;
-          seen[other] = 1;
-          out.push_back(other);
-        }
+        const std::int32_t other = neighbours[e];
+        if (seen[other]) continue;
+        seen[other] = 1;
+        out.push_back(other);
       }
       std::stable_sort(out.begin() + static_cast<std::ptrdiff_t>(before), out.end(),
                        [&](std::int32_t a, std::int32_t b) { return valence(a) < valence(b); });
@@ -50,6 +38,24 @@ std::vector<std::int32_t> narrow_order(const Mesh& mesh) {
   }
   std::reverse(order.begin(), order.end());
   return order;
+}
+
+std::vector<std::int32_t> narrow_order(const Mesh& mesh) {
+  std::vector<std::size_t> begin(mesh.points.size() + 1, 0);
+  for (const Triangle& t : mesh.triangles) {
+    for (int node : t) begin[static_cast<std::size_t>(node) + 1] += 2;
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::int32_t> neighbours(begin.back());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  for (const Triangle& t : mesh.triangles) {
+    for (int node : t) {
+      for (int other : t) {
+        if (other != node) neighbours[next[node]++] = other;
+      }
+    }
+  }
+  return narrow_order(begin, neighbours);
 }
 
 }  // namespace rheo

@@ -6,14 +6,21 @@
 // Cost     linear in the triangles, but for a short sort of each node's neighbours
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "rheo/mesh.hpp"
 
 namespace rheo {
 
-// By new number: the node's number in the mesh.
+// By new number: the node's number in the mesh. A node i's neighbours are neighbours[begin[i]] to
+// neighbours[begin[i + 1] - 1]; all of them may be listed equally often.
+std::vector<std::int32_t> narrow_order(std::span<const std::size_t> begin,
+                                       std::span<const std::int32_t> neighbours);
+
+// The same where no edges were listed: neighbours triangle by triangle.
 std::vector<std::int32_t> narrow_order(const Mesh& mesh);
 
 }  // namespace rheo
