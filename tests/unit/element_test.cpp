@@ -72,7 +72,7 @@ TEST_P(Element, AgreesWithTheAssembledFormAndTheEdgeKernel) {
     const Vector base = Vector::Zero(static_cast<Eigen::Index>(model.layout.part));
 
     AssembledBody assembled(model, 0.0);
-    const EdgeForce by_edges(std::make_shared<EdgeForm>(scene.mesh), GetParam());
+    const EdgeForce by_edges(std::make_shared<EdgeForm>(scene.mesh, combined(scene.material)), GetParam());
     EdgeBody edge(model, by_edges, 1);
     const ElementForce by_triangles = element_force(scene, GetParam());
     ElementBody element(model, by_triangles, 1);
