@@ -243,7 +243,11 @@ class SceneReader {
                     fmt::format("step = {:g} decides already; leave out one of the two", t.step));
       }
     }
-    t.where = time.where();
+    // Of what decides the step.
+    const TomlValue* decides = time.find(t.accuracy > 0.0 ? "accuracy"
+                                         : t.step > 0.0   ? "step"
+                                                          : "integrator");
+    t.where = decides == nullptr ? time.where() : time.where(*decides);
     t.baumgarte = time.number("baumgarte", {.low = 0.0, .unit = "1/s"}, t.baumgarte);
     t.constraints = static_cast<ConstraintMethod>(time.choice("constraints", methods, 0));
     time.locate([&] { validate(t); });
