@@ -186,6 +186,7 @@ struct Cost {
   double seconds_per_output = 0.0;
   std::optional<rheo::Divergence> divergence;  // what was timed is no run then
 };
+  double rest_until = 0.0;                     // [s]; so long nothing moves and no step is taken
 
 // Some real steps from the start, until there are enough of them and of seconds to be worth a quotient.
 Cost measure(rheo::Simulation& simulation) {
@@ -197,22 +198,28 @@ Cost measure(rheo::Simulation& simulation) {
   constexpr std::int64_t chunk = 16, few = 48;
   const double duration = simulation.scene().time.duration;
   // As in a run, from output to output at most.
+  Cost cost;
+  const auto note_rest = [&] {
+    const rheo::Counters& counters = simulation.counters();
+    if (counters.steps == 0 && counters.steps_at_rest > 0) cost.rest_until = simulation.time();
+  };
   const bool takes_long_steps = std::isinf(simulation.stable_step());
   const double step = takes_long_steps
                           ? std::min(simulation.step_bound(), 1.0 / simulation.scene().time.frame_rate)
                           : simulation.step_bound();
   // The first step pays for cold memory; it is not counted.
-  Cost cost;
   cost.divergence = simulation.advance(std::min(step, duration));
   if (cost.divergence) return cost;
   const std::int64_t before = simulation.counters().steps;
   const Clock::time_point start = Clock::now();
+  note_rest();
   while (simulation.time() < duration) {
     const double t = simulation.time() + (takes_long_steps ? step : static_cast<double>(chunk) * step);
     cost.divergence = simulation.advance(std::min(t, duration));
     if (cost.divergence) return cost;
     cost.steps = simulation.counters().steps - before;
     const double passed = since(start);
+    note_rest();
     if ((cost.steps >= few && passed > enough_seconds) || passed > 10.0 * enough_seconds) break;
   }
   if (cost.steps > 0) cost.seconds_per_step = since(start) / static_cast<double>(cost.steps);
@@ -235,6 +242,12 @@ void print_cost(rheo::Simulation& simulation, Verdict verdict) {
   else if (cost.divergence)
     row("cost", "no forecast: the run diverges, noticed at t = {:.4g} s", cost.divergence->t);
   else if (cost.steps == 0)
+  else if (cost.rest_until >= scene.time.duration)
+    row("cost", "next to none: nothing moves and nothing acts, all {} steps are skipped",
+        simulation.planned_steps());
+  else if (cost.steps == 0 && cost.rest_until > 0.0)
+    row("cost", "no forecast: nothing moves until t = {:.4g} s at least, steps are skipped so long",
+        cost.rest_until);
     row("cost", "no forecast: the run takes fewer than two steps");
   else
     row("cost", "forecast {:.3g} s for run, from {} timed steps of {:.3g} s each", seconds, cost.steps,

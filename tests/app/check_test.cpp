@@ -136,6 +136,17 @@ TEST_F(Check, SaysWhatAnAccuracyComesTo) {
   EXPECT_THAT(row(rk4.out, "step"), HasSubstr("for the accuracy"));
 }
 
+TEST_F(Check, SaysThatNothingMoves) {
+  write("rest.toml", small_beam_with("vector = [5.0, 0.0]", "vector = [0.0, 0.0]"));
+  const Finished finished = rheo({"check", "rest.toml", "--step", "1e-3"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_THAT(row(finished.out, "cost"),
+              HasSubstr("nothing moves and nothing acts, all 500 steps are skipped"));
+  // A load later on: what is timed is what it costs.
+  write("late.toml", small_beam_with("until = 0.2", "from = 0.3\nuntil = 0.4"));
+  EXPECT_THAT(row(rheo({"check", "late.toml", "--step", "1e-3"}).out, "cost"), HasSubstr("forecast"));
+}
+
 TEST_F(Check, WritesNothing) {
   write("beam.toml", small_beam());
   EXPECT_EQ(rheo({"check", "beam.toml"}).exit_code, 0);
