@@ -147,6 +147,24 @@ TEST_F(Check, SaysThatNothingMoves) {
   EXPECT_THAT(row(rheo({"check", "late.toml", "--step", "1e-3"}).out, "cost"), HasSubstr("forecast"));
 }
 
+TEST_F(Check, TellsOfNodesWithoutATriangle) {
+  fs::copy_file(RHEO_SOURCE_DIR "/tests/data/msh/all41.msh", folder() / "plate.msh");
+  std::string text = small_beam_with("shape = \"rectangle\"", "file = \"plate.msh\"");
+  for (const char* line : {"size = [1.0, 0.25]\n", "nodes = [5, 2]\n"})
+    text.erase(text.find(line), std::string(line).size());
+  for (const char* group : {"\"left\"", "\"right\""})
+    for (std::size_t at; (at = text.find(group)) != std::string::npos;)
+      text.replace(at, std::string(group).size(), "\"boundary\"");
+  write("plate.toml", text);
+  const char* note = "note: 1 node without a triangle was left out: tag 6";
+  const Finished check = rheo({"check", "plate.toml"});
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_THAT(check.out, HasSubstr(note));
+  const Finished run = rheo({"run", "plate.toml"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr(note));
+}
+
 TEST_F(Check, WritesNothing) {
   write("beam.toml", small_beam());
   EXPECT_EQ(rheo({"check", "beam.toml"}).exit_code, 0);

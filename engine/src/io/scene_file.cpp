@@ -136,7 +136,9 @@ class SceneReader {
     if (name.empty()) mesh.refuse("file", file, "the name of a Gmsh file (.msh) is needed");
     const std::filesystem::path path = folder_ / name;
     mesh.attribute("file", file, [&] {
-      scene_.mesh = read_msh(path);
+      LeftOutNodes left_out;
+      scene_.mesh = read_msh(path, &left_out);
+      note_left_out(left_out);
       scene_.files.push_back(path.string());
       note_turned(prepare(scene_.mesh, path.string()));
     });
@@ -153,6 +155,15 @@ class SceneReader {
       scene_.mesh.triangles.push_back({row[0], row[1], row[2]});
     }
     note_turned(prepare(scene_.mesh, mesh.where()));
+  }
+
+  void note_left_out(const LeftOutNodes& nodes) {
+    if (nodes.count == 0) return;
+    scene_.notes.push_back(
+        nodes.count == 1 ? fmt::format("1 node without a triangle was left out: tag {}", nodes.first_tag)
+                         : fmt::format("{} nodes without a triangle were left out, the "
+                                       "first of them tag {}",
+                                       nodes.count, nodes.first_tag));
   }
 
   void note_turned(int triangles) {
