@@ -165,6 +165,25 @@ TEST_F(Check, TellsOfNodesWithoutATriangle) {
   EXPECT_THAT(run.out, HasSubstr(note));
 }
 
+// The scene's and the mesh's names, and the path itself.
+TEST_F(Check, LetsNoControlCharacterReachTheTerminal) {
+  const char* const scene = "be\x1b[31mam.toml";
+  write(scene, small_beam_with("title = \"Small beam\"", "title = \"\\u001b[31mred\\nline2 \\u009b1m\"") +
+                   "\n[edges]\n\"g\\u0007\" = [[4, 9]]\n");
+  const auto expect_clean = [](const std::string& out) {
+    for (const char c : out) EXPECT_TRUE(static_cast<unsigned char>(c) >= 0x20 || c == '\n') << out;
+    EXPECT_THAT(out, testing::Not(HasSubstr("\xC2\x9B")));
+  };
+  const Finished check = rheo({"check", scene});
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  expect_clean(check.out);
+  EXPECT_EQ(lines_of(check.out)[0], "be\\x1B[31mam.toml: \\x1B[31mred\\x0Aline2 \\xC2\\x9B1m");
+  EXPECT_THAT(row(check.out, "edge groups"), HasSubstr("g\\x07 (1)"));
+  const Finished run = rheo({"run", scene});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  expect_clean(run.out);
+}
+
 TEST_F(Check, WritesNothing) {
   write("beam.toml", small_beam());
   EXPECT_EQ(rheo({"check", "beam.toml"}).exit_code, 0);
