@@ -14,6 +14,7 @@
 #include "memory_need.hpp"
 #include "option_values.hpp"
 #include "overrides.hpp"
+#include "printable.hpp"
 #include "progress.hpp"
 #include "rheo/deformation.hpp"
 #include "rheo/simulation.hpp"
@@ -27,7 +28,7 @@ constexpr std::size_t most_items = 12;
 
 template <typename... Values>
 void row(const char* name, fmt::format_string<Values...> format, Values&&... values) {
-  fmt::print("  {:<14} {}\n", name, fmt::format(format, std::forward<Values>(values)...));
+  fmt::print("  {:<14} {}\n", name, printable(fmt::format(format, std::forward<Values>(values)...)));
 }
 
 std::string window_text(const rheo::Window& window) {
@@ -185,6 +186,7 @@ struct Cost {
   double seconds_per_step = 0.0;
   double seconds_per_output = 0.0;
   std::optional<rheo::Divergence> divergence;  // what was timed is no run then
+  double rest_until = 0.0;                     // [s]; so long nothing moves and no step is taken
 };
 
 // Some real steps from the start, until there are enough of them and of seconds to be worth a quotient.
@@ -196,22 +198,28 @@ Cost measure(rheo::Simulation& simulation) {
   constexpr double enough_seconds = 0.1;
   constexpr std::int64_t chunk = 16, few = 48;
   const double duration = simulation.scene().time.duration;
+  Cost cost;
+  const auto note_rest = [&] {
+    const rheo::Counters& counters = simulation.counters();
+    if (counters.steps == 0 && counters.steps_at_rest > 0) cost.rest_until = simulation.time();
+  };
   // As in a run, from output to output at most.
   const bool takes_long_steps = std::isinf(simulation.stable_step());
   const double step = takes_long_steps
                           ? std::min(simulation.step_bound(), 1.0 / simulation.scene().time.frame_rate)
                           : simulation.step_bound();
   // The first step pays for cold memory; it is not counted.
-  Cost cost;
   cost.divergence = simulation.advance(std::min(step, duration));
   if (cost.divergence) return cost;
   const std::int64_t before = simulation.counters().steps;
+  note_rest();
   const Clock::time_point start = Clock::now();
   while (simulation.time() < duration) {
     const double t = simulation.time() + (takes_long_steps ? step : static_cast<double>(chunk) * step);
     cost.divergence = simulation.advance(std::min(t, duration));
     if (cost.divergence) return cost;
     cost.steps = simulation.counters().steps - before;
+    note_rest();
     const double passed = since(start);
     if ((cost.steps >= few && passed > enough_seconds) || passed > 10.0 * enough_seconds) break;
   }
@@ -234,6 +242,12 @@ void print_cost(rheo::Simulation& simulation, Verdict verdict) {
     row("cost", "no forecast: the run would be refused");
   else if (cost.divergence)
     row("cost", "no forecast: the run diverges, noticed at t = {:.4g} s", cost.divergence->t);
+  else if (cost.rest_until >= scene.time.duration)
+    row("cost", "next to none: nothing moves and nothing acts, all {} steps are skipped",
+        simulation.planned_steps());
+  else if (cost.steps == 0 && cost.rest_until > 0.0)
+    row("cost", "no forecast: nothing moves until t = {:.4g} s at least, steps are skipped so long",
+        cost.rest_until);
   else if (cost.steps == 0)
     row("cost", "no forecast: the run takes fewer than two steps");
   else
@@ -275,8 +289,8 @@ void check_scene(const Options& options) {
   if (time.step > limit * (1.0 + 1e-12) && !options.simulation.allow_unstable) verdict = Verdict::too_long;
   if (verdict == Verdict::accepted && simulation->scene().time.integrator != time.integrator)
     simulation.emplace(scene, any_step);
-  fmt::print("{}: {}\n", options.scene.string(), scene.title);
-  for (const std::string& note : run_notes(scene)) fmt::print("  note: {}\n", note);
+  fmt::print("{}: {}\n", printable(options.scene.string()), printable(scene.title));
+  for (const std::string& note : run_notes(scene)) fmt::print("  note: {}\n", printable(note));
   print_mesh(scene);
   print_loads(scene);
   print_steps(*simulation, time.integrator, euler_limit, verdict, plan);

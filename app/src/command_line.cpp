@@ -280,7 +280,7 @@ Options read_values(const Texts& texts, const CLI::App& command) {
     return found != nullptr && found->count() > 0;
   };
   if (given("--integrator")) options.integrator = integrator_kind("--integrator", texts.integrator);
-  if (given("--step")) options.step = step_value("--step", texts.step);
+  if (given("--step")) options.step = {step_value("--step", texts.step), texts.step};
   if (given("--tolerance")) options.tolerance = tolerance_value("--tolerance", texts.tolerance);
   if (given("--accuracy")) options.accuracy = accuracy_value("--accuracy", texts.accuracy);
   for (const char* other : {"--step", "--tolerance"}) {
@@ -289,9 +289,11 @@ Options read_values(const Texts& texts, const CLI::App& command) {
                     fmt::format("--accuracy '{}' and {}: one of them decides, leave out the other",
                                 texts.accuracy, other));
   }
-  if (given("--duration")) options.duration = positive_number("--duration", texts.duration, "seconds");
+  if (given("--duration"))
+    options.duration = {positive_number("--duration", texts.duration, "seconds"), texts.duration};
   if (given("--frame-rate"))
-    options.frame_rate = positive_number("--frame-rate", texts.frame_rate, "outputs per second");
+    options.frame_rate = {positive_number("--frame-rate", texts.frame_rate, "outputs per second"),
+                          texts.frame_rate};
   options.simulation.allow_unstable = texts.allow_unstable;
   options.simulation.energies = !texts.no_energies;
   if (given("--kernel")) options.simulation.kernel = kernel_choice("--kernel", texts.kernel);

@@ -23,6 +23,12 @@ struct ColorRange {
   std::array<double, 2> limits{0.0, 1.0};
 };
 
+// An override that may not fit the scene's other values: a refusal then shows it as it was typed.
+struct TypedNumber {
+  double value = 0.0;
+  std::string text;
+};
+
 struct Options {
   Command command = Command::run;
   std::filesystem::path scene;
@@ -31,11 +37,11 @@ struct Options {
 
   // Overrides of the scene's [time] and [render]; empty: as the scene says.
   std::optional<rheo::IntegratorKind> integrator;
-  std::optional<double> step;       // [s]; 0: auto
+  std::optional<TypedNumber> step;  // [s]; 0: auto
   std::optional<double> tolerance;  // integrator exponential only
   std::optional<double> accuracy;
-  std::optional<double> duration;
-  std::optional<double> frame_rate;
+  std::optional<TypedNumber> duration;
+  std::optional<TypedNumber> frame_rate;
   std::optional<rheo::ColorBy> color;
   std::optional<ColorRange> range;
   std::optional<std::array<int, 2>> size;

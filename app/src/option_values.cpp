@@ -12,6 +12,7 @@
 
 #include "failure.hpp"
 #include "nearest.hpp"
+#include "rheo/limits.hpp"
 
 namespace app {
 namespace {
@@ -92,6 +93,10 @@ double positive_number(const std::string& option, const std::string& text, const
   const std::optional<double> value = whole_text<double>(text);
   if (!value || !std::isfinite(*value) || *value <= 0.0)
     refuse(option, text, fmt::format("must be a number greater than 0 ({})", unit));
+  if (!rheo::of_usable_size(*value))
+    refuse(option, text,
+           fmt::format("must be a number from {:g} to {:g} ({})", rheo::smallest_size, rheo::largest_size,
+                       unit));
   return *value;
 }
 

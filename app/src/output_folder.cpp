@@ -82,8 +82,13 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-// What run.json of an earlier run lists; nullopt where there is none or it is something else's.
-std::optional<std::vector<std::string>> earlier_files(const fs::path& folder) {
+struct EarlierRun {
+  std::vector<std::string> files;  // made or, of an unfinished run, to come
+  bool finished = true;
+};
+
+// What run.json tells of an earlier run; nullopt where there is none or it is something else's.
+std::optional<EarlierRun> earlier_run(const fs::path& folder) {
   using Json = nlohmann::json;
   std::ifstream file(folder / "run.json", std::ios::binary);
   if (!file) return std::nullopt;
@@ -91,11 +96,12 @@ std::optional<std::vector<std::string>> earlier_files(const fs::path& folder) {
   const Json json = Json::parse(text, nullptr, false);
   if (!json.is_object() || !json.contains("rheo") || !json.contains("files") || !json["files"].is_array())
     return std::nullopt;
-  std::vector<std::string> names;
+  EarlierRun run;
+  run.finished = !json.contains("exit_status") || !json["exit_status"].is_null();
   for (const Json& name : json["files"])
     // A name that rheo does not write, such as "../thesis.tex", is nobody's order to remove it.
-    if (name.is_string() && is_own(name.get<std::string>())) names.push_back(name);
-  return names;
+    if (name.is_string() && is_own(name.get<std::string>())) run.files.push_back(name);
+  return run;
 }
 
 // Unfinished files, which carry names that only rheo gives.
@@ -146,6 +152,12 @@ OutputFolder::OutputFolder(fs::path folder, Replace replace) : folder_(std::move
   if (!names.empty() && replace == Replace::nothing) {
     const std::string remedy =
         "name another folder with -o, or add --force, which replaces results and keeps other files";
+    const std::optional<EarlierRun> earlier = earlier_run(folder_);
+    if (earlier && !earlier->finished)
+      throw Failure(
+          ExitCode::usage,
+          fmt::format("{}: holds what an interrupted run left, if that run is not still going on: {}",
+                      folder_.string(), remedy));
     if (std::ranges::find(names, "run.json") != names.end())
       throw Failure(ExitCode::usage,
                     fmt::format("{}: holds the results of an earlier run: {}", folder_.string(), remedy));
@@ -162,7 +174,7 @@ OutputFolder::OutputFolder(fs::path folder, Replace replace) : folder_(std::move
     for (const char* const end : {"", ".part"})
       if (const fs::path path = folder_ / (std::string(name) + end); fs::is_directory(path))
         refuse_folder(path);
-  std::vector<std::string> listed = earlier_files(folder_).value_or(std::vector<std::string>{});
+  std::vector<std::string> listed = earlier_run(folder_).value_or(EarlierRun{}).files;
   // The list goes last: what is left of an interrupted removal is still known.
   std::ranges::stable_partition(listed, [](const std::string& name) { return name != "run.json"; });
   stale_ = leftovers_in(folder_);
@@ -188,6 +200,13 @@ void OutputFolder::clear() {
   for (const char* const subfolder : {"frames", "vtu"})
     if (fs::is_directory(fs::symlink_status(folder_ / subfolder, error)))
       fs::remove(folder_ / subfolder, error);  // one that holds anything stays
+}
+
+std::vector<std::string> OutputFolder::free_of(std::vector<std::string> names) const {
+  std::error_code error;
+  std::erase_if(
+      names, [&](const std::string& name) { return fs::exists(fs::symlink_status(folder_ / name, error)); });
+  return names;
 }
 
 OutputFolder::~OutputFolder() {

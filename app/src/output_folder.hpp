@@ -1,7 +1,8 @@
 // The folder of a run's results: checked and made before the simulation, never cleared of foreign files.
 //
 // Whose file it is, is known from the earlier run.json alone: without it only unfinished files are removed,
-// and a file in the place of a result is replaced when that result is complete.
+// and a file in the place of a result is replaced when that result is complete. A run writes run.json when it
+// begins too, with exit_status null and the files to come, so that what an interrupted one has left is known.
 //
 //   state.csv history.csv run.json sheet.png residual.png frames/frame_00000.png ... vtu/state_00000.vtu ...
 //   vtu/state.pvd bench.csv bench.png
@@ -39,6 +40,8 @@ class OutputFolder {
   void expect_series(const std::string& first);
   // Removes the earlier run's files. Everything that may refuse the new run comes before.
   void clear();
+  // Those of the names at which nothing stands: what is there now, after clear(), is somebody else's.
+  std::vector<std::string> free_of(std::vector<std::string> names) const;
   // Notes that a file is complete.
   void made(const std::string& name) { made_.push_back(name); }
   const std::vector<std::string>& all_made() const { return made_; }

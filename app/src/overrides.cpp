@@ -7,13 +7,42 @@
 #include "rheo/io/scene_file.hpp"
 
 namespace app {
+namespace {
+
+// "--duration '1e12'": what was typed of two settings that do not go together.
+std::string typed(const char* name, const std::optional<TypedNumber>& option, const char* other_name,
+                  const std::optional<TypedNumber>& other) {
+  std::string text;
+  if (option) text = fmt::format("{} '{}'", name, option->text);
+  if (other) text += fmt::format("{}{} '{}'", text.empty() ? "" : " and ", other_name, other->text);
+  return text;
+}
+
+// The scene's own values go together, its reader has seen to it: what does not, the options have done.
+void require_countable(const Options& options, const rheo::TimeSettings& time) {
+  if (const double outputs = time.duration * time.frame_rate; !(outputs <= rheo::max_outputs)) {
+    throw Failure(ExitCode::usage,
+                  fmt::format("{}: {:.3g} outputs, {:g} per second for {:g} s; at most {:.0e} are allowed",
+                              typed("--duration", options.duration, "--frame-rate", options.frame_rate),
+                              outputs, time.frame_rate, time.duration, rheo::max_outputs));
+  }
+  if (time.step == 0.0) return;
+  if (const double steps = time.duration / time.step; !(steps <= rheo::max_steps)) {
+    throw Failure(ExitCode::usage,
+                  fmt::format("{}: {:.3g} steps of {:g} s in {:g} s; at most {:.0e} are allowed",
+                              typed("--step", options.step, "--duration", options.duration), steps, time.step,
+                              time.duration, rheo::max_steps));
+  }
+}
+
+}  // namespace
 
 rheo::Scene load_scene(const Options& options) {
   rheo::Scene scene = rheo::read_scene(options.scene);
   if (options.integrator) scene.time.integrator = *options.integrator;
   // What the command line says of the step, the tolerance or the accuracy stands for all that the scene says.
   if (options.step || options.tolerance) scene.time.accuracy = 0.0;
-  if (options.step) scene.time.step = *options.step;
+  if (options.step) scene.time.step = options.step->value;
   if (options.accuracy) {
     scene.time.accuracy = *options.accuracy;
     scene.time.step = 0.0;
@@ -30,8 +59,9 @@ rheo::Scene load_scene(const Options& options) {
     }
     scene.time.tolerance = *options.tolerance;
   }
-  if (options.duration) scene.time.duration = *options.duration;
-  if (options.frame_rate) scene.time.frame_rate = *options.frame_rate;
+  if (options.duration) scene.time.duration = options.duration->value;
+  if (options.frame_rate) scene.time.frame_rate = options.frame_rate->value;
+  require_countable(options, scene.time);
   if (options.color) scene.picture.color = *options.color;
   if (options.size) scene.picture.size = *options.size;
   if (options.range) {

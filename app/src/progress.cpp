@@ -7,6 +7,8 @@
 #include <cstdio>
 #include <utility>
 
+#include "printable.hpp"
+
 namespace app {
 namespace {
 
@@ -61,7 +63,7 @@ void Progress::end() {
 void Progress::line(const std::string& text) {
   if (quiet_) return;
   clear_bar();
-  fmt::print("{}\n", text);
+  fmt::print("{}\n", printable(text));
 }
 
 void Progress::clear_bar() {

@@ -223,7 +223,7 @@ void write_run_report(const std::filesystem::path& path, const Options& options,
   json["seconds"] = seconds_of(report.seconds);
   json["notes"] = report.notes;
   json["warnings"] = report.warnings;
-  json["exit_status"] = static_cast<int>(report.divergence ? ExitCode::diverged : ExitCode::done);
+  json["exit_status"] = report.exit_status ? Json(static_cast<int>(*report.exit_status)) : Json(nullptr);
   json["divergence"] = divergence_of(report.divergence);
   write(path, json);
 }

@@ -7,6 +7,9 @@
 //   null), duration, frame_rate, threads, encoder_threads, renderer mesh: nodes, triangles outputs; files;
 //   counters; seconds by phase; notes; warnings; exit_status; divergence or null
 //
+// A run writes it twice: when it begins, with exit_status null, nothing counted yet and as files those to
+// come where nothing stands so far; and when it ends, in the place of that.
+//
 // Counters: what was done, so that what a scene does not need shows as 0
 //
 //   steps, force_evaluations    of the integrator; each evaluation both products, J_lambda w and J_mu w
@@ -66,6 +69,7 @@ struct RunReport {
   std::vector<std::string> notes;
   std::vector<std::string> warnings;
   Seconds seconds;
+  std::optional<ExitCode> exit_status;  // empty: the run has not ended
   std::optional<rheo::Divergence> divergence;
 };
 

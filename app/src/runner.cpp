@@ -96,6 +96,19 @@ std::string divergence_text(const rheo::Divergence& divergence, const rheo::Simu
       where, used, name_of(time.integrator), stable);
 }
 
+// All that a run may write: one that diverges leaves some of it out.
+std::vector<std::string> files_to_come(const Options& options, const rheo::TimeSettings& time) {
+  std::vector<std::string> names{"history.csv", "state.csv"};
+  const bool pictures = options.command == Command::render;
+  for (std::int64_t k = 0; k < rheo::output_count(time); ++k) {
+    if (options.vtu) names.push_back(vtu_name(k));
+    if (pictures) names.push_back(frame_name(k));
+  }
+  if (options.vtu) names.push_back("vtu/state.pvd");
+  if (pictures) names.insert(names.end(), {"sheet.png", "residual.png"});
+  return names;
+}
+
 // One line a file; frames and .vtu files as one line each.
 void list_files(const OutputFolder& folder, Progress& progress) {
   const std::vector<std::string>& files = folder.all_made();
@@ -163,6 +176,9 @@ void run_scene(const Options& options) {
   for (std::string& note : plan_notes(simulation, options.simulation))
     report.notes.push_back(std::move(note));
   for (const std::string& note : report.notes) progress.line("note: " + note);
+  report.files = folder.free_of(files_to_come(options, simulation.scene().time));
+  report.files.push_back("run.json");
+  write_run_report(folder.file("run.json"), options, simulation, report);
   HistoryFile history(folder.file("history.csv"), simulation.scene());
   LinearityWatch watch(progress);
   std::vector<Sink> sinks{{&history, &seconds.write}, {&watch, &seconds.write}};
@@ -200,6 +216,7 @@ void run_scene(const Options& options) {
   report.files = folder.all_made();
   report.warnings = watch.warnings();
   report.divergence = passed.divergence;
+  report.exit_status = passed.divergence ? ExitCode::diverged : ExitCode::done;
   write_run_report(folder.file("run.json"), options, simulation, report);
 
   summarise(simulation.counters(), seconds, sequence ? passed.outputs : 0, progress);

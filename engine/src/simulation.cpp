@@ -145,10 +145,12 @@ struct Simulation::Impl {
     const std::string name(integrator->name());
     const bool given = settings.step > 0.0;
     if (limit == 0.0 && !(given && options.allow_unstable)) {
+      const char* const remedy = given ? "allow it" : "give a step and allow it";
       refuse_step(fmt::format(
-          "integrator = \"{}\": no step of it is stable here, some vibrations are not damped: use "
-          "\"rk4\", or give a step and allow it (--allow-unstable)",
-          name));
+          "{}: no step of {} is stable here, some vibrations are not damped: use \"rk4\", or {} "
+          "(--allow-unstable)",
+          given ? fmt::format("step = {:g} s", settings.step) : fmt::format("integrator = \"{}\"", name),
+          given ? name : "it", remedy));
     }
     if (given && settings.step > limit * (1.0 + 1e-12) && !options.allow_unstable) {
       refuse_step(fmt::format(

@@ -37,11 +37,11 @@ TEST_F(BenchPicture, HasTheMarksWhereTheDataIs) {
   const render::Image image = read_png(folder() / "b/bench.png");
   ASSERT_EQ(image.width, 1280);
   ASSERT_EQ(image.height, 720);
-  // Colours of the first three curves: blue, vermilion, green.
+  // Colours of the four curves: blue, vermilion, green, purple.
   const auto coloured = [&](int x, int y) {
     const auto i = 4 * static_cast<std::size_t>(y * image.width + x);
     const int r = image.rgba[i], g = image.rgba[i + 1], b = image.rgba[i + 2];
-    return b > r + 90 || r > b + 120 || (g > r + 90 && g > b + 20);
+    return b > r + 90 || r > b + 120 || (g > r + 90 && g > b + 20) || (r > g + 60 && b > g + 30);
   };
   // Below the legend: the curves, which reach from the first to the last mark in both directions.
   constexpr int top = 82;

@@ -80,7 +80,8 @@ TEST_F(Bench, ErrorsAreThoseOfTheRunsAgainstAnExactSolution) {
   const std::vector<CsvRow> table = rows();
   const Json runs = report()["runs"];
   ASSERT_EQ(table.size(), runs.size());
-  for (const char* name : {"exponential", "rk4", "euler"}) EXPECT_GE(of(table, name).size(), 2u) << name;
+  for (const char* name : {"exponential", "implicit", "rk4", "euler"})
+    EXPECT_GE(of(table, name).size(), 2u) << name;
 
   const rheo::Scene scene = rheo::read_scene(folder() / "beam.toml");
   std::vector<double> times;
@@ -92,9 +93,10 @@ TEST_F(Bench, ErrorsAreThoseOfTheRunsAgainstAnExactSolution) {
     EXPECT_EQ(name, table[k].integrator);
     if (table[k].error < 1e-10) continue;  // both yardsticks' rounding shows
     rheo::Scene again = scene;
-    again.time.integrator = name == "rk4"     ? rheo::IntegratorKind::rk4
-                            : name == "euler" ? rheo::IntegratorKind::euler
-                                              : rheo::IntegratorKind::exponential;
+    again.time.integrator = name == "rk4"        ? rheo::IntegratorKind::rk4
+                            : name == "euler"    ? rheo::IntegratorKind::euler
+                            : name == "implicit" ? rheo::IntegratorKind::implicit
+                                                 : rheo::IntegratorKind::exponential;
     if (runs[k]["step_asked"].is_number()) again.time.step = runs[k]["step_asked"];
     if (runs[k]["tolerance"].is_number()) again.time.tolerance = runs[k]["tolerance"];
     // A run is the same to the last bit, and the yardsticks agree to 1e-12.

@@ -136,6 +136,54 @@ TEST_F(Check, SaysWhatAnAccuracyComesTo) {
   EXPECT_THAT(row(rk4.out, "step"), HasSubstr("for the accuracy"));
 }
 
+TEST_F(Check, SaysThatNothingMoves) {
+  write("rest.toml", small_beam_with("vector = [5.0, 0.0]", "vector = [0.0, 0.0]"));
+  const Finished finished = rheo({"check", "rest.toml", "--step", "1e-3"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_THAT(row(finished.out, "cost"),
+              HasSubstr("nothing moves and nothing acts, all 500 steps are skipped"));
+  // A load later on: what is timed is what it costs.
+  write("late.toml", small_beam_with("until = 0.2", "from = 0.3\nuntil = 0.4"));
+  EXPECT_THAT(row(rheo({"check", "late.toml", "--step", "1e-3"}).out, "cost"), HasSubstr("forecast"));
+}
+
+TEST_F(Check, TellsOfNodesWithoutATriangle) {
+  fs::copy_file(RHEO_SOURCE_DIR "/tests/data/msh/all41.msh", folder() / "plate.msh");
+  std::string text = small_beam_with("shape = \"rectangle\"", "file = \"plate.msh\"");
+  for (const char* line : {"size = [1.0, 0.25]\n", "nodes = [5, 2]\n"})
+    text.erase(text.find(line), std::string(line).size());
+  for (const char* group : {"\"left\"", "\"right\""})
+    for (std::size_t at; (at = text.find(group)) != std::string::npos;)
+      text.replace(at, std::string(group).size(), "\"boundary\"");
+  write("plate.toml", text);
+  const char* note = "note: 1 node without a triangle was left out: tag 6";
+  const Finished check = rheo({"check", "plate.toml"});
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_THAT(check.out, HasSubstr(note));
+  const Finished run = rheo({"run", "plate.toml"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr(note));
+}
+
+// The scene's and the mesh's names, and the path itself.
+TEST_F(Check, LetsNoControlCharacterReachTheTerminal) {
+  const char* const scene = "be\x1b[31mam.toml";
+  write(scene, small_beam_with("title = \"Small beam\"", "title = \"\\u001b[31mred\\nline2 \\u009b1m\"") +
+                   "\n[edges]\n\"g\\u0007\" = [[4, 9]]\n");
+  const auto expect_clean = [](const std::string& out) {
+    for (const char c : out) EXPECT_TRUE(static_cast<unsigned char>(c) >= 0x20 || c == '\n') << out;
+    EXPECT_THAT(out, testing::Not(HasSubstr("\xC2\x9B")));
+  };
+  const Finished check = rheo({"check", scene});
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  expect_clean(check.out);
+  EXPECT_EQ(lines_of(check.out)[0], "be\\x1B[31mam.toml: \\x1B[31mred\\x0Aline2 \\xC2\\x9B1m");
+  EXPECT_THAT(row(check.out, "edge groups"), HasSubstr("g\\x07 (1)"));
+  const Finished run = rheo({"run", scene});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  expect_clean(run.out);
+}
+
 TEST_F(Check, WritesNothing) {
   write("beam.toml", small_beam());
   EXPECT_EQ(rheo({"check", "beam.toml"}).exit_code, 0);

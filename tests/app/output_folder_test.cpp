@@ -9,6 +9,7 @@ namespace {
 using testing::Contains;
 using testing::ElementsAre;
 using testing::EndsWith;
+using testing::HasSubstr;
 using testing::Not;
 
 class OutputFolder : public ProgramTest {
@@ -97,6 +98,23 @@ TEST_F(OutputFolder, WhatAnInterruptedRunLeftIsNamedAndForceRemovesIt) {
   ASSERT_EQ(rheo({"run", "beam.toml", "-o", "results", "--force"}).exit_code, 0);
   EXPECT_THAT(files(), ElementsAre("beam.toml", "results", "results/history.csv", "results/run.json",
                                    "results/state.csv"));
+}
+
+// 50,000 outputs: far more than are written before the kill.
+TEST_F(OutputFolder, AKilledRunIsKnownAndForceRemovesWhatItMade) {
+  write("results/notes.txt", "mine");
+  write("results/vtu/state_00001.vtu.old", "mine");
+  write("results/vtu/state_49000.vtu", "mine");
+  rheo_killed_at("results/vtu/state_00003.vtu",
+                 {"run", "beam.toml", "-o", "results", "--vtu", "--frame-rate", "1e5", "--force"});
+  ASSERT_TRUE(fs::exists(folder() / "results/run.json"));
+  EXPECT_THAT(read_text(folder() / "results/run.json"), HasSubstr("\"exit_status\": null"));
+  expect_failure(rheo({"run", "beam.toml", "-o", "results"}), 2, {"results", "interrupted run", "--force"});
+  ASSERT_EQ(rheo({"run", "beam.toml", "-o", "results", "--force"}).exit_code, 0);
+  EXPECT_THAT(files(), ElementsAre("beam.toml", "results", "results/history.csv", "results/notes.txt",
+                                   "results/run.json", "results/state.csv", "results/vtu",
+                                   "results/vtu/state_00001.vtu.old", "results/vtu/state_49000.vtu"));
+  expect_failure(rheo({"run", "beam.toml", "-o", "results"}), 2, {"results", "earlier run", "--force"});
 }
 
 TEST_F(OutputFolder, AnObstacleIsFoundBeforeAnythingIsRemoved) {

@@ -6,10 +6,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <fstream>
 #include <iterator>
 #include <sstream>
+#include <thread>
 
 namespace app_tests {
 namespace {
@@ -33,8 +36,9 @@ fs::path ProgramTest::write(const std::string& name, const std::string& text) co
   return path;
 }
 
-Finished ProgramTest::rheo(const std::vector<std::string>& arguments,
-                           const std::map<std::string, std::string>& environment) const {
+// The process number of the running program.
+int ProgramTest::start(const std::vector<std::string>& arguments,
+                       const std::map<std::string, std::string>& environment) const {
   const std::string out = folder_ / out_name, err = folder_ / err_name;
   std::vector<std::string> words{RHEO_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
@@ -55,9 +59,29 @@ Finished ProgramTest::rheo(const std::vector<std::string>& arguments,
     execv(RHEO_PROGRAM, argv.data());
     _exit(127);
   }
+  return child;
+}
+
+Finished ProgramTest::rheo(const std::vector<std::string>& arguments,
+                           const std::map<std::string, std::string>& environment) const {
   int status = 0;
+  waitpid(start(arguments, environment), &status, 0);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(folder_ / out_name),
+          read_text(folder_ / err_name)};
+}
+
+void ProgramTest::rheo_killed_at(const std::string& file, const std::vector<std::string>& arguments) const {
+  const pid_t child = start(arguments, {});
+  int status = 0;
+  pid_t ended = 0;
+  while (ended == 0 && !fs::exists(folder_ / file)) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ended = waitpid(child, &status, WNOHANG);
+  }
+  ASSERT_EQ(ended, 0) << "ended before '" << file << "' was there: " << read_text(folder_ / err_name);
+  kill(child, SIGKILL);
   waitpid(child, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text(out), read_text(err)};
+  ASSERT_TRUE(WIFSIGNALED(status)) << "done before it could be killed";
 }
 
 std::vector<std::string> ProgramTest::files() const {

@@ -27,10 +27,15 @@ class ProgramTest : public testing::Test {
   fs::path write(const std::string& name, const std::string& text) const;
   Finished rheo(const std::vector<std::string>& arguments,
                 const std::map<std::string, std::string>& environment = {}) const;
+  // Kills the program as soon as `file`, a path in the test's folder, exists.
+  void rheo_killed_at(const std::string& file, const std::vector<std::string>& arguments) const;
   // Every file below the test's folder, as relative paths, sorted; the helper's own files not among them.
   std::vector<std::string> files() const;
 
  private:
+  int start(const std::vector<std::string>& arguments,
+            const std::map<std::string, std::string>& environment) const;
+
   fs::path folder_;
 };
 

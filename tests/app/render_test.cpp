@@ -12,6 +12,7 @@ namespace {
 
 using testing::AllOf;
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 using testing::SizeIs;
@@ -123,6 +124,16 @@ TEST_F(Render, DrawsTheFramesBeforeADivergence) {
   EXPECT_EQ(frames("r").size(), read_table(folder() / "r/history.csv")["t"].size());
   EXPECT_THAT(files(),
               AllOf(Contains("r/sheet.png"), Contains("r/residual.png"), Not(Contains("r/state.csv"))));
+}
+
+// 5,001 frames: far more than are drawn before the kill.
+TEST_F(Render, AKilledOneLeavesNoFrameAmongTheNextOnes) {
+  rheo_killed_at("r/frames/frame_00003.png",
+                 {"render", "beam.toml", "-o", "r", "--frame-rate", "1e4", "--size", "64x64"});
+  expect_failure(rheo({"render", "beam.toml", "-o", "r"}), 2, {"r: ", "interrupted run", "--force"});
+  render("r", {"--frame-rate", "4", "--force"});
+  EXPECT_THAT(frames("r"), ElementsAre("r/frames/frame_00000.png", "r/frames/frame_00001.png",
+                                       "r/frames/frame_00002.png"));
 }
 
 TEST_F(Render, QuietIsSilent) {

@@ -72,6 +72,34 @@ TEST_F(SceneErrors, UnknownGroup) {
   expect_refused(small_beam_with("edges = \"left\"", "edges = \"lift\""), {"scene.toml", "lift", "left"});
 }
 
+TEST_F(SceneErrors, AStepBeyondTheLimitIsAtItsOwnLine) {
+  write("scene.toml", small_beam_with("frame_rate = 20", "frame_rate = 20\nstep = 0.5"));
+  for (const char* command : {"check", "run"})
+    expect_failure(rheo({command, "scene.toml"}), 2, {"scene.toml:30: [time] step = 0.5", "stable step"});
+}
+
+TEST_F(SceneErrors, EulerWithoutDampingIsAtTheLineOfTheStepOrTheIntegrator) {
+  std::string text = small_beam_with("lambda_vis = 4.0", "lambda_vis = inf");
+  text.replace(text.find("mu_vis = 2.0"), 12, "mu_vis = inf");
+  const std::string before = "frame_rate = 20";
+  text.insert(text.find(before) + before.size(), "\nintegrator = \"euler\"");
+  write("scene.toml", text);
+  expect_failure(rheo({"run", "scene.toml"}), 2,
+                 {"scene.toml:30: [time] integrator = \"euler\": no step of it", "rk4"});
+  text.insert(text.find(before) + before.size(), "\nstep = 0.01");
+  write("scene.toml", text);
+  expect_failure(rheo({"run", "scene.toml"}), 2,
+                 {"scene.toml:30: [time] step = 0.01 s: no step of euler", "rk4"});
+}
+
+TEST_F(SceneErrors, AnAccuracyThatCannotBeHadIsAtItsOwnLine) {
+  std::string text = small_beam_with("frame_rate = 20", "frame_rate = 1\naccuracy = 1e-13");
+  text.insert(text.find("accuracy"), "integrator = \"rk4\"\n");
+  text.replace(text.find("duration = 0.5"), 14, "duration = 2000");
+  write("scene.toml", text);
+  expect_failure(rheo({"run", "scene.toml"}), 2, {"scene.toml:31: [time] accuracy = 1e-13", "rounding"});
+}
+
 TEST_F(SceneErrors, StepBeyondTheStableLimitNamesTheLimit) {
   expect_refused(small_beam() + "\n[time2]\n", {"time2"});
   write("scene.toml", small_beam());

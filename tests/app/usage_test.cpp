@@ -115,6 +115,24 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"DurationZero", {"run", "beam.toml", "--duration", "0"}, {"--duration '0'", "seconds"}},
         Wrong{"DurationNegative", {"run", "beam.toml", "--duration", "-1"}, {"--duration '-1'"}},
         Wrong{"DurationInfinite", {"run", "beam.toml", "--duration", "inf"}, {"--duration 'inf'"}},
+        Wrong{"DurationHuge",
+              {"run", "beam.toml", "--duration", "1e300"},
+              {"rheo: --duration '1e300': must be a number from 1e-30 to 1e+30 (seconds)"}},
+        Wrong{"DurationOfManyOutputs",
+              {"run", "beam.toml", "--duration", "1e12"},
+              {"rheo: --duration '1e12': 2e+13 outputs, 20 per second", "1e+07"}},
+        Wrong{"FrameRateOfManyOutputs",
+              {"bench", "beam.toml", "--frame-rate", "1e12"},
+              {"rheo: --frame-rate '1e12': 5e+11 outputs", "1e+07"}},
+        Wrong{"DurationAndFrameRateOfManyOutputs",
+              {"check", "beam.toml", "--frame-rate", "1e6", "--duration", "1e2"},
+              {"rheo: --duration '1e2' and --frame-rate '1e6': 1e+08 outputs", "1e+07"}},
+        Wrong{"StepOfManySteps",
+              {"run", "beam.toml", "--step", "1e-15"},
+              {"rheo: --step '1e-15': 5e+14 steps of 1e-15 s in 0.5 s", "1e+12"}},
+        Wrong{"FrameRateHuge",
+              {"run", "beam.toml", "--frame-rate", "1e31"},
+              {"rheo: --frame-rate '1e31': must be a number from 1e-30 to 1e+30"}},
         Wrong{"DurationEmpty", {"run", "beam.toml", "--duration", ""}, {"--duration ''"}},
         Wrong{"FrameRate", {"run", "beam.toml", "--frame-rate", "0"}, {"--frame-rate '0'", "per second"}},
         Wrong{"Threads", {"run", "beam.toml", "--threads", "0"}, {"--threads '0'", "1 to 64"}},
@@ -138,6 +156,12 @@ INSTANTIATE_TEST_SUITE_P(
             "Backend", {"render", "beam.toml", "--backend", "glx"}, {"--backend 'glx'", "auto, osmesa, egl"}},
         Wrong{"Sheet", {"render", "beam.toml", "--sheet", "1"}, {"--sheet '1'", "2 to 64"}}),
     name_of_wrong);
+
+TEST_F(Usage, ADurationThatDoesNotGoWithTheScenesStepIsTheOptionsFault) {
+  write("beam.toml", small_beam_with("frame_rate = 20", "frame_rate = 1\nstep = 1e-9"));
+  expect_failure(rheo({"run", "beam.toml", "--duration", "1e5"}), 2,
+                 {"rheo: --duration '1e5': 1e+14 steps of 1e-09 s in 100000 s", "1e+12"});
+}
 
 TEST_F(Usage, HelpNamesCommandsExitCodesAndExamples) {
   const Finished finished = rheo({"--help"});

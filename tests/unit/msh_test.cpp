@@ -88,11 +88,25 @@ INSTANTIATE_TEST_SUITE_P(Gmsh, MshVariant,
 
 TEST(Msh, LeavesOutTheMiddleOfAnArc) {
   for (const char* name : {"all22.msh", "all41.msh"}) {
-    Mesh mesh = read_msh(folder / name);
+    LeftOutNodes left_out;
+    Mesh mesh = read_msh(folder / name, &left_out);
     EXPECT_EQ(mesh.node_count(), 16) << name;
+    EXPECT_EQ(left_out.count, 1) << name;
+    EXPECT_EQ(left_out.first_tag, 6) << name;
     EXPECT_NO_THROW(prepare(mesh)) << name;
     EXPECT_EQ(mesh.edge_groups.size(), 1u) << name << ": lines without a group make none";
   }
+}
+
+TEST(Msh, OfSeveralNodesLeftOutTheFirstIsNamed) {
+  std::string text = bytes_of("all41.msh");
+  text = replaced(text, "12 17 1 17\n", "13 19 1 19\n0 7 0 2\n18\n19\n1 1 0\n2 1 0\n");
+  LeftOutNodes left_out;
+  EXPECT_EQ(parse_msh(text, "m", &left_out).node_count(), 16);
+  EXPECT_EQ(left_out.count, 3);
+  EXPECT_EQ(left_out.first_tag, 18);
+  parse_msh(bytes_of("ascii41.msh"), "m", &left_out);
+  EXPECT_EQ(left_out.count, 0);
 }
 
 TEST(Msh, WindowsLineEndsMakeNoDifference) {

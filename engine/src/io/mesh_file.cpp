@@ -20,7 +20,7 @@ class MshReader {
  public:
   MshReader(std::string bytes, const std::string& name) : in_(std::move(bytes), name) {}
 
-  Mesh read() {
+  Mesh read(LeftOutNodes* left_out) {
     read_format();
     bool nodes = false;
     bool elements = false;
@@ -49,7 +49,7 @@ class MshReader {
     }
     if (!nodes) in_.refuse("the file ends without $Nodes");
     if (!elements) in_.refuse("the file ends without $Elements");
-    return make_mesh(content_, in_.name());
+    return make_mesh(content_, in_.name(), left_out);
   }
 
  private:
@@ -274,12 +274,12 @@ class MshReader {
 
 }  // namespace
 
-Mesh read_msh(const std::filesystem::path& file) {
-  return parse_msh(read_file(file, "mesh", most_bytes), file.string());
+Mesh read_msh(const std::filesystem::path& file, LeftOutNodes* left_out) {
+  return parse_msh(read_file(file, "mesh", most_bytes), file.string(), left_out);
 }
 
-Mesh parse_msh(std::string bytes, const std::string& name) {
-  return MshReader(std::move(bytes), name).read();
+Mesh parse_msh(std::string bytes, const std::string& name, LeftOutNodes* left_out) {
+  return MshReader(std::move(bytes), name).read(left_out);
 }
 
 }  // namespace rheo

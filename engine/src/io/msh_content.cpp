@@ -22,7 +22,7 @@ class MeshMaker {
  public:
   MeshMaker(const MshContent& content, const std::string& file) : content_(content), file_(file) {}
 
-  Mesh make() {
+  Mesh make(LeftOutNodes* left_out) {
     if (content_.triangles.empty()) {
       refuse(
           "no triangles: a surface mesh is needed; make it with gmsh -2 (and a physical surface, where there "
@@ -34,6 +34,7 @@ class MeshMaker {
     check_flat();
     add_points();
     add_groups();
+    if (left_out != nullptr) *left_out = left_out_;
     return std::move(mesh_);
   }
 
@@ -151,7 +152,10 @@ class MeshMaker {
       if (used_[i] == 0 && loose[i] == 0 && !node.may_be_unused) {
         refuse("node tag {} at ({}, {}) belongs to no triangle", node.tag, node.x, node.y);
       }
-      if (used_[i] == 0) continue;
+      if (used_[i] == 0) {
+        if (left_out_.count++ == 0) left_out_.first_tag = node.tag;
+        continue;
+      }
       number_[i] = mesh_.node_count();
       mesh_.points.push_back({node.x, node.y});
     }
@@ -179,6 +183,7 @@ class MeshMaker {
   const MshContent& content_;
   const std::string& file_;
   Mesh mesh_;
+  LeftOutNodes left_out_;
   std::vector<std::pair<std::int64_t, std::size_t>> by_tag_;
   std::vector<char> used_;   // by a triangle
   std::vector<int> number_;  // in the mesh, -1: left out
@@ -242,8 +247,8 @@ void MshContent::add_element(int type, std::int64_t tag, const std::array<std::i
   }
 }
 
-Mesh make_mesh(const MshContent& content, const std::string& file) {
-  return MeshMaker(content, file).make();
+Mesh make_mesh(const MshContent& content, const std::string& file, LeftOutNodes* left_out) {
+  return MeshMaker(content, file).make(left_out);
 }
 
 }  // namespace rheo

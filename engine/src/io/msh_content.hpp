@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rheo/io/mesh_file.hpp"
 #include "rheo/mesh.hpp"
 
 namespace rheo {
@@ -44,7 +45,8 @@ struct MshContent {
                    std::span<const int> groups);
 };
 
-// Points in the order of the file, without those that only points and lines without a group use.
-Mesh make_mesh(const MshContent& content, const std::string& file);
+// Points in the order of the file, without those that only points and lines without a group use; where
+// `left_out` is not null, it tells about these.
+Mesh make_mesh(const MshContent& content, const std::string& file, LeftOutNodes* left_out);
 
 }  // namespace rheo

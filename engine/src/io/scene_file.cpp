@@ -136,7 +136,9 @@ class SceneReader {
     if (name.empty()) mesh.refuse("file", file, "the name of a Gmsh file (.msh) is needed");
     const std::filesystem::path path = folder_ / name;
     mesh.attribute("file", file, [&] {
-      scene_.mesh = read_msh(path);
+      LeftOutNodes left_out;
+      scene_.mesh = read_msh(path, &left_out);
+      note_left_out(left_out);
       scene_.files.push_back(path.string());
       note_turned(prepare(scene_.mesh, path.string()));
     });
@@ -153,6 +155,15 @@ class SceneReader {
       scene_.mesh.triangles.push_back({row[0], row[1], row[2]});
     }
     note_turned(prepare(scene_.mesh, mesh.where()));
+  }
+
+  void note_left_out(const LeftOutNodes& nodes) {
+    if (nodes.count == 0) return;
+    scene_.notes.push_back(
+        nodes.count == 1 ? fmt::format("1 node without a triangle was left out: tag {}", nodes.first_tag)
+                         : fmt::format("{} nodes without a triangle were left out, the "
+                                       "first of them tag {}",
+                                       nodes.count, nodes.first_tag));
   }
 
   void note_turned(int triangles) {
@@ -243,7 +254,11 @@ class SceneReader {
                     fmt::format("step = {:g} decides already; leave out one of the two", t.step));
       }
     }
-    t.where = time.where();
+    // Of what decides the step.
+    const TomlValue* decides = time.find(t.accuracy > 0.0 ? "accuracy"
+                                         : t.step > 0.0   ? "step"
+                                                          : "integrator");
+    t.where = decides == nullptr ? time.where() : time.where(*decides);
     t.baumgarte = time.number("baumgarte", {.low = 0.0, .unit = "1/s"}, t.baumgarte);
     t.constraints = static_cast<ConstraintMethod>(time.choice("constraints", methods, 0));
     time.locate([&] { validate(t); });

@@ -230,4 +230,8 @@ std::string TableReader::where() const {
   return fmt::format("{}:{}: {}", file_, line_, header_);
 }
 
+std::string TableReader::where(const TomlValue& value) const {
+  return fmt::format("{}:{}: {}", file_, value.line, header_);
+}
+
 }  // namespace rheo

@@ -80,6 +80,8 @@ class TableReader {
 
   // "file:line: [[fix]]"
   std::string where() const;
+  // The same with the line of one of its values.
+  std::string where(const TomlValue& value) const;
   const std::string& header() const { return header_; }
 
  private:
