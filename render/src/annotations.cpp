@@ -146,6 +146,24 @@ float head_half_width(float length, float unit) {
   return 0.42f * head_length(length, unit);
 }
 
+// Whether the segment from `a` to `b` meets the rectangle: what the rectangle's two pairs of sides leave of
+// it is not empty.
+bool meets(Point a, Point b, const Rect& r) {
+  float from = 0, to = 1;
+  const auto cut = [&](float start, float step, float low, float high) {
+    if (step == 0) {
+      if (start < low || start > high) to = -1;
+      return;
+    }
+    const auto [first, last] = std::minmax({(low - start) / step, (high - start) / step});
+    from = std::max(from, first);
+    to = std::min(to, last);
+  };
+  cut(a.x, b.x - a.x, r.x0, r.x1);
+  cut(a.y, b.y - a.y, r.y0, r.y1);
+  return from <= to;
+}
+
 }  // namespace
 
 TractionArrows::TractionArrows(std::vector<int> boundary, std::span<const int> triangles,
@@ -267,6 +285,11 @@ void TractionArrows::draw(Canvas& canvas, const Camera& camera, const MeshFrame&
     Point away;  // from the body
   };
   std::vector<Drawn> strongest;
+  struct Segment {
+    Point from, to;
+    float half_width;
+  };
+  std::vector<Segment> shafts;                                                     // of all that is drawn
   float left = std::numeric_limits<float>::infinity(), right = -left, top = left;  // what the strongest cover
   for (std::size_t k = 0; k < frame.arrows.size(); ++k) {
     const TractionArrow& arrow = frame.arrows[k];
@@ -286,6 +309,7 @@ void TractionArrows::draw(Canvas& canvas, const Camera& camera, const MeshFrame&
     canvas.line(tail, {tip.x - ux * head * 0.8f, tip.y - uy * head * 0.8f}, theme::force, width);
     canvas.triangle(tip, {neck.x - uy * half, neck.y + ux * half}, {neck.x + uy * half, neck.y - ux * half},
                     theme::force);
+    shafts.push_back({tail, tip, std::max(half, width / 2)});
     const double size = std::hypot(arrow.vector[0], arrow.vector[1]);
     if (size < (1 - 1e-9) * largest) continue;
     strongest.push_back({about.presses ? tail : tip, about.presses ? Point{-ux, -uy} : Point{ux, uy}});
@@ -295,20 +319,40 @@ void TractionArrows::draw(Canvas& canvas, const Camera& camera, const MeshFrame&
   }
   if (strongest.empty() || value_area.width() <= 0) return;
 
-  // The value beyond the middle one of the largest arrows; above all arrows where that is outside of the
-  // area.
+  // The value beyond the middle one of the largest arrows, farther out while it would stand on an arrow;
+  // above all arrows where that is outside of the area.
   const Drawn& chosen = strongest[strongest.size() / 2];
   const std::string value = with_unit(largest, "Pa");
   const float text = canvas.text_size(TextSize::small), w = canvas.text_width(TextSize::small, value);
-  float x = chosen.outer.x + chosen.away.x * (w / 2 + 0.5f * text);
-  float y = chosen.outer.y + chosen.away.y * 0.8f * text;
-  const auto inside = [](float v, float low, float high) { return v >= low && v <= high; };
-  if (!inside(x, value_area.x0 + w / 2, value_area.x1 - w / 2) || !inside(y, value_area.y0, value_area.y1)) {
-    x = (left + right) / 2;
-    y = top - 0.9f * text;
+  const auto on_an_arrow = [&](Point p) {
+    return std::ranges::any_of(shafts, [&](const Segment& s) {
+      const float x = w / 2 + 0.2f * text + s.half_width, y = 0.55f * text + s.half_width;
+      return meets(s.from, s.to, {p.x - x, p.y - y, p.x + x, p.y + y});
+    });
+  };
+  const auto inside = [&](Point p) {
+    return p.x >= value_area.x0 + w / 2 && p.x <= value_area.x1 - w / 2 && p.y >= value_area.y0 &&
+           p.y <= value_area.y1;
+  };
+  Point at{chosen.outer.x + chosen.away.x * (w / 2 + 0.5f * text),
+           chosen.outer.y + chosen.away.y * 0.8f * text};
+  while (inside(at) && on_an_arrow(at)) {
+    at.x += 0.25f * text * chosen.away.x;
+    at.y += 0.25f * text * chosen.away.y;
   }
-  x = std::clamp(x, value_area.x0 + w / 2, std::max(value_area.x1 - w / 2, value_area.x0 + w / 2));
-  y = std::clamp(y, value_area.y0 + text / 2, std::max(value_area.y1 - text / 2, value_area.y0 + text / 2));
+  if (!inside(at)) {
+    at = {(left + right) / 2, top - 0.9f * text};
+    for (const Segment& s : shafts) {  // weaker ones too
+      const Rect column{at.x - w / 2 - s.half_width, value_area.y0, at.x + w / 2 + s.half_width,
+                        value_area.y1};
+      if (meets(s.from, s.to, column))
+        at.y = std::min(at.y, std::min(s.from.y, s.to.y) - s.half_width - 0.9f * text);
+    }
+  }
+  const float x =
+      std::clamp(at.x, value_area.x0 + w / 2, std::max(value_area.x1 - w / 2, value_area.x0 + w / 2));
+  const float y = std::clamp(at.y, value_area.y0 + text / 2,
+                             std::max(value_area.y1 - text / 2, value_area.y0 + text / 2));
   Color halo = theme::paper;
   halo.a = 215;
   canvas.rect({x - w / 2 - 0.2f * text, y - 0.55f * text, x + w / 2 + 0.2f * text, y + 0.55f * text}, halo,

@@ -211,9 +211,13 @@ Image MeshPicture::sheet(std::span<const MeshFrame> frames) {
   const Impl::Parts p = m.parts();
   const float text = m.canvas.text_size(TextSize::small);
   const float label = 1.5f * text;  // a panel's time above its shape
-  Framing framing = m.framing(m.line_room());
-  for (const MeshFrame& frame : frames)
-    m.arrows.add_to(framing, m.canvas, frame, m.body.arrow_scale, m.sheet_arrow_length());
+  const auto framing_with = [&](float longest_arrow) {
+    Framing framing = m.framing(m.line_room());
+    for (const MeshFrame& frame : frames)
+      m.arrows.add_to(framing, m.canvas, frame, m.body.arrow_scale, longest_arrow);
+    return framing;
+  };
+  Framing framing = framing_with(m.sheet_arrow_length());
   const auto below_label = [label](Rect cell) {
     cell.y0 = std::min(cell.y0 + label, cell.y1);
     return cell;
@@ -227,10 +231,14 @@ Image MeshPicture::sheet(std::span<const MeshFrame> frames) {
     const double scale = framing.fit(below_label(cell)).scale;
     return cell.width() < widest + text ? cramped * scale : scale;
   });
+  // In low cells shorter arrows: they keep out of the times above, and leave the shape most of the room.
+  const float longest_arrow =
+      std::min(m.sheet_arrow_length(), 0.6f * below_label(grid_cell(grid, p.body, 0)).height());
+  if (longest_arrow < m.sheet_arrow_length()) framing = framing_with(longest_arrow);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const Rect room = below_label(grid_cell(grid, p.body, static_cast<int>(i)));
     const Camera camera = framing.fit(room);
-    m.draw_body(camera, frames[i], m.sheet_arrow_length(), {});
+    m.draw_body(camera, frames[i], longest_arrow, {});
     // The time stands above what the camera shows, not above an empty part of the cell.
     const float top = framing.covered(camera, room).y0;
     const std::string time = time_text(frames[i].time);

@@ -32,7 +32,14 @@ Ticks linear_ticks(double low, double high, int most) {
       break;
     }
   }
-  const double first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
+  double first = std::ceil(low / step - 1e-9), last = std::floor(high / step + 1e-9);
+  // One number is no scale: the next smaller steps, along 5, 2, 1.
+  while (most > 1 && last - first < 1 && step > 1e-3 * span) {
+    const double leading = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
+    step /= leading > 4 ? 2.5 : 2;
+    first = std::ceil(low / step - 1e-9);
+    last = std::floor(high / step + 1e-9);
+  }
   if (last - first > 1000) return ticks;
   // Close ranges far from zero: the step is lost in rounding.
   if (std::max(std::abs(low), std::abs(high)) > 1e12 * step) return ticks;

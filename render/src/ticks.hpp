@@ -15,7 +15,8 @@ struct Ticks {
   int exponent = 0;                 // not 0 where the numbers would be long
 };
 
-// Steps of 1, 2 or 5 times a power of ten, at most `most` ticks.
+// Steps of 1, 2 or 5 times a power of ten, at most `most` ticks; where that leaves fewer than the two that
+// make a scale (and `most` > 1), smaller steps, with at most two ticks more than asked for.
 Ticks linear_ticks(double low, double high, int most);
 
 // Powers of ten in [low, high] > 0, labelled "10^k" (for typeset()), thinned out to at most `most`; where the

@@ -31,6 +31,19 @@ TEST(Ticks, AreRoundNumbersInsideOfTheRange) {
   }
 }
 
+TEST(Ticks, AScaleHasTwoNumbersHoweverFewAreAskedFor) {
+  EXPECT_EQ(linear_ticks(0, 118, 2).labels, (Strings{"0", "100"}));
+  for (double high = 1; high < 10.05; high += 0.1) {
+    for (const double low : {0.0, -0.37 * high, 0.77 * high}) {
+      for (int most = 2; most < 10; ++most) {
+        const auto ticks = linear_ticks(low, high, most);
+        EXPECT_GE(ticks.at.size(), 2u) << low << " " << high << " " << most;
+        EXPECT_LE(ticks.at.size(), static_cast<std::size_t>(most) + 2) << low << " " << high << " " << most;
+      }
+    }
+  }
+}
+
 TEST(Ticks, LongNumbersGetAPowerOfTen) {
   const auto small = linear_ticks(0, 4e-5, 5);
   EXPECT_EQ(small.exponent, -5);
