@@ -91,8 +91,8 @@ SparseFactor::SparseFactor(std::shared_ptr<const FactorOrder> order)
 std::size_t SparseFactor::bytes() const {
   const auto dofs = static_cast<std::size_t>(x_.size());
   const auto entries = static_cast<std::size_t>(cholesky_.l().nonZeros());
-  // L's columns begin, tree and column lengths: an int each; x_.
-  return entries * (sizeof(double) + sizeof(int)) + dofs * (3 * sizeof(int) + sizeof(double));
+  // Where L's columns begin, their lengths and the tree: an int each; D and x_.
+  return entries * (sizeof(double) + sizeof(int)) + dofs * (3 * sizeof(int) + 2 * sizeof(double));
 }
 
 bool SparseFactor::factor(std::span<const Block> values) {
@@ -100,12 +100,10 @@ bool SparseFactor::factor(std::span<const Block> values) {
   const Eigen::SparseMatrix<double> s = order_->ordered(values);
   cholesky_.factorize(s);
   if (cholesky_.info() != Eigen::Success) return false;
-  const Eigen::SparseMatrix<double>& l = cholesky_.l();
   for (Eigen::Index k = 0; k < s.cols(); ++k) {
-    // First in L's columns, last in those of the upper triangle.
-    const double pivot = l.valuePtr()[l.outerIndexPtr()[k]];
+    // The diagonal is the last of each column of the upper triangle.
     const double origin = s.valuePtr()[s.outerIndexPtr()[k + 1] - 1];
-    if (!(pivot * pivot > vanished * origin)) return false;  // NaN as well
+    if (!(cholesky_.d()[k] > vanished * origin)) return false;  // NaN as well
   }
   return true;
 }
@@ -119,6 +117,7 @@ void SparseFactor::solve(std::span<double> x) const {
     x_[place + 1] = x[node + 1];
   }
   cholesky_.matrixL().solveInPlace(x_);
+  x_.array() /= cholesky_.d().array();
   cholesky_.matrixU().solveInPlace(x_);
   for (std::size_t k = 0; k < order.size(); ++k) {
     const auto place = static_cast<Eigen::Index>(2 * k);

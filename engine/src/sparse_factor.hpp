@@ -1,5 +1,5 @@
-// S = L L^T of a sparse symmetric positive definite matrix of 2 x 2 blocks, a block a pair of nodes: Eigen's
-// SimplicialLLT over single degrees of freedom.
+// S = L D L^T of a sparse symmetric positive definite matrix of 2 x 2 blocks, a block a pair of nodes:
+// Eigen's SimplicialLDLT over single degrees of freedom.
 //
 //   FactorOrder   an order of the nodes that keeps L sparse (approximate minimum degree); once a mesh
 //   SparseFactor  the elimination tree and memory of L when made; L for every new set of values; x = S^-1 x
@@ -58,7 +58,7 @@ class SparseFactor {
   explicit SparseFactor(std::shared_ptr<const FactorOrder> order);
 
   const BlockPattern& pattern() const { return order_->pattern(); }
-  // Memory of L and what goes with it [bytes].
+  // Memory of L, D and what goes with them [bytes].
   std::size_t bytes() const;
 
   bool factor(std::span<const Block> values);
@@ -67,10 +67,11 @@ class SparseFactor {
 
  private:
   using Natural =
-      Eigen::SimplicialLLT<Eigen::SparseMatrix<double>, Eigen::Upper, Eigen::NaturalOrdering<int>>;
+      Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Upper, Eigen::NaturalOrdering<int>>;
   struct Cholesky : Natural {
-    // L, its entries counted from the analysis on.
+    // Eigen gives L after a factor only, where it has its size from the analysis on, and D as a copy.
     const Eigen::SparseMatrix<double>& l() const { return m_matrix; }
+    const Eigen::VectorXd& d() const { return m_diag; }
   };
 
   std::shared_ptr<const FactorOrder> order_;

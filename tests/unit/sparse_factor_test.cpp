@@ -98,10 +98,9 @@ TEST(SparseFactor, KeepsARowOfNodesWithoutFill) {
     }
     chain.start.push_back(static_cast<int>(chain.column.size()));
   }
-  // L: a triangle of 3 a node and a block of 4 between neighbours, 12 bytes each; 20 bytes a degree of
-  // freedom.
+  // L: one number a node and a block of 4 between neighbours, 12 bytes each; 28 bytes a degree of freedom.
   EXPECT_EQ(SparseFactor(std::make_shared<FactorOrder>(chain)).bytes(),
-            12u * (3 * nodes + 4 * (nodes - 1)) + 20u * 2 * nodes);
+            12u * (nodes + 4 * (nodes - 1)) + 28u * 2 * nodes);
 }
 
 TEST(SparseFactor, RefusesWhatRoundingLeftNothingOf) {
