@@ -33,7 +33,8 @@ constexpr const char* examples =
     "  rheo check beam.toml\n"
     "  rheo run beam.toml -o out/beam --vtu\n"
     "  rheo render beam.toml --color w_mu --size 1920x1080\n"
-    "  rheo run beam.toml --integrator euler --step 1e-4 --force\n";
+    "  rheo run beam.toml --integrator euler --step 1e-4 --force\n"
+    "  rheo bench beam.toml --csv beam.csv\n";
 
 constexpr int most_threads = 64;
 constexpr int fewest_shapes = 2;
@@ -43,7 +44,7 @@ constexpr int most_shapes = 64;
 struct Texts {
   std::string scene, folder, integrator, step, tolerance, duration, frame_rate, threads;
   std::string size, color, range, backend, sheet;
-  std::string kernel;
+  std::string kernel, csv, budget;
   bool vtu = false, force = false, quiet = false, allow_unstable = false, no_energies = false;
 };
 
@@ -79,9 +80,9 @@ void add_time_options(CLI::App& command, Texts& texts) {
       ->group(group);
   command
       .add_option("--kernel", texts.kernel,
-                  "way to the forces: csr (assembled matrices), edge (vectorised; lumped\n"
-                  "mass, fixed and moved nodes only, not implicit) or auto, the default:\n"
-                  "the fastest that the scene allows")
+                  "way to the forces: csr (assembled matrices), edge or element (by edges or\n"
+                  "triangles, vectorised; lumped mass, fixed and moved nodes only, not\n"
+                  "implicit) or auto, the default: the fastest that the scene allows")
       ->type_name("NAME")
       ->group(group);
   command
@@ -143,11 +144,41 @@ void add_picture_options(CLI::App& command, Texts& texts) {
       ->group(group);
 }
 
+// bench chooses steps and tolerances itself.
+void add_bench_options(CLI::App& command, Texts& texts) {
+  const auto add = [&](const char* group, const char* names, std::string& text, const char* type,
+                       const std::string& description) {
+    command.add_option(names, text, description)->type_name(type)->group(group);
+  };
+  const char* what = "What to run";
+  add(what, "--budget", texts.budget, "NUMBER",
+      "seconds that all of it may take, about; runs beyond it are left out and\nnamed; default 60");
+  add(what, "--integrator", texts.integrator, "NAME", "this one alone; default: all");
+  add(what, "--kernel", texts.kernel, "NAME",
+      "csr, edge or auto, the default: the fastest that the scene allows");
+  add(what, "--threads", texts.threads, "N", "threads that compute; default: as many processors as pay");
+  add(what, "--duration", texts.duration, "NUMBER", "seconds to simulate; default: as the scene says");
+  add(what, "--frame-rate", texts.frame_rate, "NUMBER",
+      "outputs per second, where errors are measured; default: as the scene\nsays");
+  const char* output = "Output";
+  add(output, "-o,--output", texts.folder, "DIR",
+      "folder of bench.csv, bench.png and run.json; default: out/ and the\nscene's stem and _bench");
+  add(output, "--csv", texts.csv, "FILE", "the table as CSV, in the place of DIR/bench.csv");
+  command
+      .add_flag("--force", texts.force,
+                "replace what an earlier rheo wrote into DIR, and FILE; other files stay")
+      ->group(output);
+  command.add_flag("--quiet", texts.quiet, "print nothing unless something fails")->group(output);
+  add(output, "--size", texts.size, "WxH",
+      "pixels of bench.png, each side 16 to 16384; default: as the scene says");
+  add(output, "--backend", texts.backend, "NAME", "auto, osmesa or egl, to draw with");
+}
+
 CLI::App* add_command(CLI::App& program, Texts& texts, const std::string& name,
                       const std::string& description) {
   CLI::App* command = program.add_subcommand(name, description);
   command->add_option("SCENE", texts.scene, "scene file (TOML)")->required()->type_name("");
-  add_time_options(*command, texts);
+  if (name != "bench") add_time_options(*command, texts);
   command->group("Commands");
   command->footer(fmt::format("{}\n{}", examples, exit_codes));
   return command;
@@ -164,17 +195,18 @@ std::vector<std::string> option_names(const CLI::App& command) {
 void check_first_word(const std::vector<std::string>& words) {
   if (words.size() < 2)
     throw Failure(ExitCode::usage,
-                  "no command: use run, render or check with a scene file (see rheo --help)");
+                  "no command: use run, render, check or bench with a scene file (see rheo --help)");
   const std::string& word = words[1];
-  const std::vector<std::string> commands{"run", "render", "check"};
+  const std::vector<std::string> commands{"run", "render", "check", "bench"};
   if (word.starts_with('-') || std::ranges::find(commands, word) != commands.end()) return;
-  if (word == "view" || word == "bench")
+  if (word == "view")
     throw Failure(ExitCode::usage,
-                  fmt::format("this version ({}) has no command '{}': it has run, render and check",
+                  fmt::format("this version ({}) has no command '{}': it has run, render, check and bench",
                               RHEO_VERSION, word));
   const std::string close = nearest(word, commands);
-  throw Failure(ExitCode::usage, fmt::format("unknown command '{}': must be run, render or check{}", word,
-                                             close.empty() ? "" : fmt::format("; did you mean {}?", close)));
+  throw Failure(ExitCode::usage,
+                fmt::format("unknown command '{}': must be run, render, check or bench{}", word,
+                            close.empty() ? "" : fmt::format("; did you mean {}?", close)));
 }
 
 [[noreturn]] void refuse_extra(const std::string& extra, const CLI::App* command) {
@@ -230,7 +262,10 @@ void check_values(const std::vector<std::string>& words, const CLI::App& command
 Options read_values(const Texts& texts, const CLI::App& command) {
   Options options;
   const std::string& name = command.get_name();
-  options.command = name == "run" ? Command::run : name == "render" ? Command::render : Command::check;
+  options.command = name == "run"      ? Command::run
+                    : name == "render" ? Command::render
+                    : name == "check"  ? Command::check
+                                       : Command::bench;
   if (texts.scene.empty()) throw Failure(ExitCode::usage, "SCENE '': must be the path of a scene file");
   options.scene = texts.scene;
   const auto given = [&](const char* option) {
@@ -248,6 +283,13 @@ Options read_values(const Texts& texts, const CLI::App& command) {
   if (given("--kernel")) options.simulation.kernel = kernel_choice("--kernel", texts.kernel);
 
   options.folder = std::filesystem::path("out") / options.scene.stem();
+  // Apart from the results of run and render, which --force would take for an earlier run's.
+  if (options.command == Command::bench) options.folder += "_bench";
+  if (given("--csv")) {
+    if (texts.csv.empty()) throw Failure(ExitCode::usage, "--csv '': must be the path of a file");
+    options.csv = texts.csv;
+  }
+  if (given("--budget")) options.budget = positive_number("--budget", texts.budget, "seconds");
   if (given("--output")) {
     if (texts.folder.empty()) throw Failure(ExitCode::usage, "--output '': must be the path of a folder");
     options.folder = texts.folder;
@@ -290,12 +332,15 @@ std::optional<Options> read_command_line(int argc, char** argv) {
   add_output_options(*run, texts);
   add_output_options(*render, texts);
   add_picture_options(*render, texts);
+  CLI::App* bench = add_command(program, texts, "bench",
+                                "run the scene over integrators and steps; run time against error");
+  add_bench_options(*bench, texts);
 
   const auto chosen = [&]() -> const CLI::App* {
     const auto commands = program.get_subcommands();
     return commands.empty() ? nullptr : commands.front();
   };
-  for (const CLI::App* command : {run, render, check})
+  for (const CLI::App* command : {run, render, check, bench})
     if (command->get_name() == words[1]) check_values(words, *command);
   try {
     program.parse(argc, argv);
@@ -312,7 +357,7 @@ std::optional<Options> read_command_line(int argc, char** argv) {
   }
   if (!chosen())
     throw Failure(ExitCode::usage,
-                  "no command: use run, render or check with a scene file (see rheo --help)");
+                  "no command: use run, render, check or bench with a scene file (see rheo --help)");
   Options options = read_values(texts, *chosen());
   options.words = words;
   return options;

@@ -15,7 +15,7 @@
 
 namespace app {
 
-enum class Command { run, render, check };
+enum class Command { run, render, check, bench };
 enum class DrawBackend { automatic, osmesa, egl };
 
 struct ColorRange {
@@ -40,8 +40,10 @@ struct Options {
   std::optional<std::array<int, 2>> size;
 
   DrawBackend backend = DrawBackend::automatic;
-  int threads = 2;           // encoders of the frame sequence
-  std::optional<int> sheet;  // shapes on the sheet; empty: 8 to 12, as suits the run
+  int threads = 2;            // encoders of the frame sequence
+  std::optional<int> sheet;   // shapes on the sheet; empty: 8 to 12, as suits the run
+  std::filesystem::path csv;  // bench: its table; empty: into the folder
+  double budget = 60.0;       // bench: seconds
   bool vtu = false;
   bool force = false;
   rheo::SimulationOptions simulation;

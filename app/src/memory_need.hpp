@@ -41,6 +41,9 @@ inline double memory_need(const rheo::Scene& scene, const Options& options) {
     constexpr double kept = 256.0 * 1024.0 * 1024.0;
     need += std::min(kept, static_cast<double>(rheo::output_count(scene.time)) * nodes * 12.0);
   }
+  // The exact states at all outputs, and others to check them by.
+  if (options.command == Command::bench)
+    need += 2.0 * 64.0 * nodes * static_cast<double>(rheo::output_count(scene.time));
   return need;
 }
 
@@ -55,7 +58,9 @@ inline void require_memory(const rheo::Scene& scene, const Options& options) {
                     scene.time.integrator == rheo::IntegratorKind::implicit ? " with implicit" : "",
                     need * 1e-9, whose, limit * 1e-9,
                     scene.material.mass == rheo::Mass::lumped ? "" : " or mass = \"lumped\"",
-                    options.command == Command::render ? ", or smaller pictures (--size)" : ""));
+                    options.command == Command::render  ? ", or smaller pictures (--size)"
+                    : options.command == Command::bench ? ", or fewer outputs (--frame-rate, --duration)"
+                                                        : ""));
   };
   const double pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
   const double page = static_cast<double>(sysconf(_SC_PAGESIZE));

@@ -44,8 +44,10 @@ const Choices<rheo::IntegratorKind>& integrators() {
 }
 
 const Choices<rheo::Kernel>& kernels() {
-  static const Choices<rheo::Kernel> all{
-      {"auto", rheo::Kernel::automatic}, {"csr", rheo::Kernel::csr}, {"edge", rheo::Kernel::edge}};
+  static const Choices<rheo::Kernel> all{{"auto", rheo::Kernel::automatic},
+                                         {"csr", rheo::Kernel::csr},
+                                         {"edge", rheo::Kernel::edge},
+                                         {"element", rheo::Kernel::element}};
   return all;
 }
 

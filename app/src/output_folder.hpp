@@ -4,7 +4,7 @@
 // and a file in the place of a result is replaced when that result is complete.
 //
 //   state.csv history.csv run.json sheet.png residual.png frames/frame_00000.png ... vtu/state_00000.vtu ...
-//   vtu/state.pvd
+//   vtu/state.pvd bench.csv bench.png
 //
 // Errors   Failure(usage): it holds files already and Replace::nothing was asked for; Failure(file): it is no
 //          folder, or cannot be made, read or written, or a folder is in the place of a result

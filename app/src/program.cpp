@@ -10,6 +10,7 @@
 #include <new>
 #include <string>
 
+#include "bench.hpp"
 #include "check.hpp"
 #include "command_line.hpp"
 #include "failure.hpp"
@@ -33,6 +34,8 @@ void run_command(int argc, char** argv) {
   if (options) {
     if (options->command == Command::check)
       check_scene(*options);
+    else if (options->command == Command::bench)
+      bench_scene(*options);
     else
       run_scene(*options);
   }

@@ -73,6 +73,7 @@ void Recorder::record(rheo::Simulation& simulation, std::int64_t) {
       record_[u.size() + i] = static_cast<float>(value);
       range_ = {std::min(range_[0], value), std::max(range_[1], value)};
     }
+    color_values_ += static_cast<std::int64_t>(u.size() / 2);
   }
   store_.append(record_);
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -37,6 +38,8 @@ class Recorder : public OutputSink {
   const std::array<double, 4>& bounds() const { return bounds_; }
   // Smallest and largest scalar of all outputs; nullopt where nothing is coloured or recorded.
   std::optional<std::array<double, 2>> scalar_range() const;
+  // How many scalars were computed: none where nothing is coloured.
+  std::int64_t color_values() const { return color_values_; }
 
  private:
   void include(double x, double y);
@@ -49,6 +52,7 @@ class Recorder : public OutputSink {
   std::vector<float> record_;
   std::array<double, 4> bounds_;
   std::array<double, 2> range_;
+  std::int64_t color_values_ = 0;
 };
 
 // All recorded scalars are 0 and the range is theirs: a colour bar would show a range that does not exist.

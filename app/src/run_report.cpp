@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "option_values.hpp"
@@ -70,7 +71,7 @@ Json read_files_of(const std::vector<Fingerprint>& files) {
   return json;
 }
 
-Json counters_of(const rheo::Counters& counters) {
+Json counters_of(const rheo::Counters& counters, const RunReport& report) {
   return {{"steps", counters.steps},
           {"force_evaluations", counters.force_evaluations},
           {"branch_updates", counters.branch_updates},
@@ -81,7 +82,11 @@ Json counters_of(const rheo::Counters& counters) {
           {"energy_samples", counters.energy_samples},
           {"steps_at_rest", counters.steps_at_rest},
           {"factors", counters.factors},
-          {"shifted_solves", counters.shifted_solves}};
+          {"shifted_solves", counters.shifted_solves},
+          {"color_values", report.color_values},
+          {"frames_drawn", report.drawing.frames_drawn},
+          {"frames_repeated", report.drawing.frames_repeated},
+          {"mesh_uploads", report.drawing.mesh_uploads}};
 }
 
 Json seconds_of(const Seconds& seconds) {
@@ -119,9 +124,11 @@ Fingerprint fingerprint(const std::string& path) {
   return result;
 }
 
-void write_run_report(const std::filesystem::path& path, const Options& options,
-                      const rheo::Simulation& simulation, const RunReport& report) {
-  const rheo::Scene& scene = simulation.scene();
+namespace {
+
+// What both kinds of report begin with.
+template <typename Report>
+Json beginning(const Options& options, const rheo::Scene& scene, const Report& report) {
   Json json;
   json["rheo"] = RHEO_VERSION;
   json["compiler"] = RHEO_COMPILER;
@@ -135,21 +142,76 @@ void write_run_report(const std::filesystem::path& path, const Options& options,
   json["scene"] = report.scene_text;
   json["read_files"] = read_files_of(report.read_files);
   json["title"] = scene.title;
+  return json;
+}
+
+void write(const std::filesystem::path& path, const Json& json) {
+  rheo::AtomicFile file(path);
+  // A path may hold bytes that are no UTF-8; they are replaced rather than refused after all the work.
+  file.write(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  file.commit();
+}
+
+Json mesh_of(const rheo::Scene& scene) {
+  return {{"nodes", scene.mesh.node_count()}, {"triangles", scene.mesh.triangle_count()}};
+}
+
+Json run_of(const Row& row) {
+  const Setting& setting = row.setting;
+  return {{"integrator", name_of(setting.integrator)},
+          {"step_asked", setting.step > 0.0 ? Json(setting.step) : Json("auto")},
+          {"tolerance", setting.tolerance > 0.0 ? Json(setting.tolerance) : Json(nullptr)},
+          {"kernel", row.kernel},
+          {"threads", row.threads},
+          {"largest_step", row.largest_step},
+          {"force_evaluations", row.force_evaluations},
+          {"seconds", row.seconds},
+          {"error", number(row.error)}};
+}
+
+}  // namespace
+
+std::string file_text(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) throw Failure(ExitCode::file, fmt::format("{}: cannot read the scene", path.string()));
+  return text;
+}
+
+void write_bench_report(const std::filesystem::path& path, const Options& options, const rheo::Scene& scene,
+                        const BenchReport& report) {
+  Json json = beginning(options, scene, report);
+  json["mesh"] = mesh_of(scene);
+  json["exact"] = {{"method", report.reference.method},
+                   {"check", report.reference.check},
+                   {"uncertainty", report.reference.uncertainty}};
+  json["runs"] = Json::array();
+  for (const Row& row : report.runs.rows) json["runs"].push_back(run_of(row));
+  json["left_out"] = Json::array();
+  for (const LeftOut& left : report.runs.left_out)
+    json["left_out"].push_back({{"what", left.what}, {"why", left.why}});
+  json["advice"] = report.advice;
+  json["files"] = report.files;
+  json["notes"] = report.notes;
+  json["exit_status"] = static_cast<int>(ExitCode::done);
+  write(path, json);
+}
+
+void write_run_report(const std::filesystem::path& path, const Options& options,
+                      const rheo::Simulation& simulation, const RunReport& report) {
+  const rheo::Scene& scene = simulation.scene();
+  Json json = beginning(options, scene, report);
   json["settings"] = settings_of(options, simulation, report);
-  json["mesh"] = {{"nodes", scene.mesh.node_count()}, {"triangles", scene.mesh.triangle_count()}};
+  json["mesh"] = mesh_of(scene);
   json["outputs"] = report.outputs;
   json["files"] = report.files;
-  json["counters"] = counters_of(simulation.counters());
+  json["counters"] = counters_of(simulation.counters(), report);
   json["seconds"] = seconds_of(report.seconds);
   json["notes"] = report.notes;
   json["warnings"] = report.warnings;
   json["exit_status"] = static_cast<int>(report.divergence ? ExitCode::diverged : ExitCode::done);
   json["divergence"] = divergence_of(report.divergence);
-
-  rheo::AtomicFile file(path);
-  // A path may hold bytes that are no UTF-8; they are replaced rather than refused after all the work.
-  file.write(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
-  file.commit();
+  write(path, json);
 }
 
 }  // namespace app

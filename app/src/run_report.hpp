@@ -2,9 +2,25 @@
 //
 //   rheo, compiler, build_type, toolchain, libraries, command_line, working_directory, scene_file, scene (its
 //   text), read_files (path, bytes, fnv1a_64 of each file that the scene names), title
-//   settings: integrator, step_asked (seconds or "auto"), step_bound, largest_step (used), stable_step,
-//   tolerance (exponential only), duration, frame_rate, threads, renderer mesh: nodes, triangles; outputs;
-//   files; counters; seconds by phase; notes; warnings; exit_status; divergence or null
+//   settings: integrator, kernel (csr, edge or element), step_asked (seconds or "auto"), step_bound,
+//   largest_step (used), stable_step, tolerance (exponential only), duration, frame_rate, threads,
+//   encoder_threads, renderer
+//   mesh: nodes, triangles
+//   outputs; files; counters; seconds by phase; notes; warnings; exit_status; divergence or null
+//
+// Counters: what was done, so that what a scene does not need shows as 0
+//
+//   steps, force_evaluations    of the integrator; each evaluation both products, J_lambda w and J_mu w
+//   mass_solves                 with the consistent mass; 0 where it is lumped
+//   constraint_solves           for Lagrange multipliers; 0 where constraints are eliminated or absent
+//   projections                 velocity jumps where constraints begin
+//   energy_samples              looks at the energies: after every step, with --no-energies at outputs and
+//                               every 16th step only
+//   steps_at_rest               steps that were not taken because nothing moved and nothing acted
+//   color_values                colours computed: nodes times outputs; 0 without pictures and with color =
+//                               "none"
+//   frames_drawn, _repeated     whole frames drawn; frames taken from the one before but for their time
+//   mesh_uploads                of positions and colours to the graphics library: those that had changed
 //
 // Source   FNV-1a: Fowler, Noll and Vo, IETF draft-eastlake-fnv; offset basis 0xcbf29ce484222325, prime
 //          0x100000001b3
@@ -18,10 +34,12 @@
 #include <string>
 #include <vector>
 
+#include "bench_runs.hpp"
 #include "command_line.hpp"
 #include "failure.hpp"
 #include "phase_clock.hpp"
 #include "rheo/simulation.hpp"
+#include "sequence.hpp"
 
 namespace app {
 
@@ -35,10 +53,15 @@ struct Fingerprint {
 
 Fingerprint fingerprint(const std::string& path);
 
+// The scene's file as it is; the reader has accepted it a moment ago. Errors: Failure(file)
+std::string file_text(const std::filesystem::path& path);
+
 struct RunReport {
   std::string scene_text;
   std::string renderer;  // empty: nothing was drawn
   std::int64_t outputs = 0;
+  std::int64_t color_values = 0;
+  DrawCounters drawing;
   std::vector<Fingerprint> read_files;
   std::vector<std::string> files;
   std::vector<std::string> notes;
@@ -46,6 +69,21 @@ struct RunReport {
   Seconds seconds;
   std::optional<rheo::Divergence> divergence;
 };
+
+// Of bench: exact (how errors were measured), runs (all that the table shows, every run's seconds), left_out
+// and advice take the place of settings, outputs, counters and seconds.
+struct BenchReport {
+  std::string scene_text;
+  std::vector<Fingerprint> read_files;
+  std::vector<std::string> files;
+  std::vector<std::string> notes;
+  Reference reference;
+  Rows runs;
+  std::string advice;
+};
+
+void write_bench_report(const std::filesystem::path& file, const Options& options, const rheo::Scene& scene,
+                        const BenchReport& report);
 
 void write_run_report(const std::filesystem::path& file, const Options& options,
                       const rheo::Simulation& simulation, const RunReport& report);

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -29,14 +27,6 @@
 
 namespace app {
 namespace {
-
-// The file as it is, for run.json; the reader has accepted it a moment ago.
-std::string file_text(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw Failure(ExitCode::file, fmt::format("{}: cannot read the scene", path.string()));
-  return text;
-}
 
 struct Sink {
   OutputSink* sink;
@@ -194,7 +184,11 @@ void run_scene(const Options& options) {
                                        name_of(simulation.scene().picture.color)));
     progress.line("note: " + report.notes.back());
   }
-  if (sequence) sequence->draw(simulation.scene(), *recorder, history, folder, progress, seconds);
+  if (sequence) {
+    sequence->draw(simulation.scene(), *recorder, history, folder, progress, seconds);
+    report.color_values = recorder->color_values();
+    report.drawing = sequence->counters();
+  }
 
   folder.made("run.json");
   report.outputs = passed.outputs;

@@ -11,22 +11,11 @@
 #include "render/mesh_picture.hpp"
 #include "render/plot.hpp"
 #include "render/png.hpp"
+#include "render_backend.hpp"
 #include "sheet_frames.hpp"
 
 namespace app {
 namespace {
-
-render::Backend backend_of(DrawBackend backend) {
-  switch (backend) {
-    case DrawBackend::osmesa:
-      return render::Backend::osmesa;
-    case DrawBackend::egl:
-      return render::Backend::egl;
-    case DrawBackend::automatic:
-      break;
-  }
-  return render::Backend::automatic;
-}
 
 struct ScalarText {
   const char* name;
@@ -152,6 +141,7 @@ struct Sequence::Impl {
   int threads = 1;
   std::optional<int> shapes;
   bool bare = false;  // nothing to colour
+  DrawCounters counters;
 
   void draw_frames(render::MeshPicture& picture, const Recorder& recorder, const LoadedEdges& edges,
                    OutputFolder& folder, Progress& progress, Seconds& seconds) const {
@@ -238,6 +228,10 @@ std::string Sequence::description() const {
   return impl_->context->description();
 }
 
+DrawCounters Sequence::counters() const {
+  return impl_->counters;
+}
+
 void Sequence::draw(const rheo::Scene& scene, const Recorder& recorder, const HistoryFile& history,
                     OutputFolder& folder, Progress& progress, Seconds& seconds) {
   if (recorder.count() == 0) return;
@@ -260,6 +254,8 @@ void Sequence::draw(const rheo::Scene& scene, const Recorder& recorder, const Hi
   render::MeshPicture picture(*impl_->context, layout);
   impl_->draw_frames(picture, recorder, edges, folder, progress, seconds);
   impl_->draw_sheet(scene, picture, recorder, edges, folder, seconds);
+  const render::PictureCounters counted = picture.counters();
+  impl_->counters = {counted.frames_drawn, counted.frames_repeated, counted.mesh_uploads};
   impl_->draw_residual(scene, history, folder, seconds);
 }
 

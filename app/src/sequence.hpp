@@ -7,6 +7,7 @@
 // without it
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +21,13 @@
 
 namespace app {
 
+// What frames and sheet have cost so far.
+struct DrawCounters {
+  std::int64_t frames_drawn = 0;
+  std::int64_t frames_repeated = 0;  // like the frame before but for the time, which alone was drawn
+  std::int64_t mesh_uploads = 0;     // of positions and colours to the graphics library
+};
+
 class Sequence {
  public:
   Sequence(const rheo::PictureSettings& picture, const Options& options);
@@ -30,6 +38,7 @@ class Sequence {
   // All recorded outputs as DIR/frames/..., then DIR/sheet.png and DIR/residual.png.
   void draw(const rheo::Scene& scene, const Recorder& recorder, const HistoryFile& history,
             OutputFolder& folder, Progress& progress, Seconds& seconds);
+  DrawCounters counters() const;
 
  private:
   struct Impl;

@@ -22,4 +22,8 @@ std::string Sequence::description() const {
 void Sequence::draw(const rheo::Scene&, const Recorder&, const HistoryFile&, OutputFolder&, Progress&,
                     Seconds&) {}
 
+DrawCounters Sequence::counters() const {
+  return {};
+}
+
 }  // namespace app

@@ -16,8 +16,14 @@ AssembledBody::AssembledBody(const Model& model, double omega) : Body(model, ome
   state_.assign(model.layout.size(), 0.0);
   parts_.assign(model.layout.size() / model.layout.part, {model.layout.part, 1.0});
   rate_.assign(model.layout.size(), 0.0);
-  rhs_.setZero(static_cast<Eigen::Index>(model.layout.part));
-  momentum_.setZero(static_cast<Eigen::Index>(model.layout.part));
+  // All memory of a step is taken here.
+  const auto part = static_cast<Eigen::Index>(model.layout.part);
+  for (Vector* v : {&rhs_, &momentum_, &reaction_, &reaction_rate_, &external_}) v->setZero(part);
+  for (Evaluation* e : {&work_, &evaluation_, &derivative_}) {
+    e->acceleration.setZero(part);
+    if (model.layout.lambda) e->force_lambda.setZero(part);
+    if (model.layout.mu) e->force_mu.setZero(part);
+  }
 }
 
 void AssembledBody::load(std::span<const double> y) {
@@ -32,6 +38,12 @@ void AssembledBody::store(std::span<double> y) const {
 void AssembledBody::enter(const Interval& interval, const Vector& base) {
   Body::enter(interval, base);
   target_.setZero(static_cast<Eigen::Index>(interval.solver->columns().size()));
+  for (Evaluation* e : {&work_, &evaluation_, &derivative_}) e->multipliers.setZero(target_.size());
+  constrained_.assign(model_.layout.part, 0);
+  for (const HeldDof& h : interval.eliminated) constrained_[h.dof] = 1;
+  for (const Column& column : interval.solver->columns()) {
+    for (const auto& [dof, coefficient] : column.entries) constrained_[dof] = 1;
+  }
   evaluated_ = false;
 }
 
@@ -61,7 +73,6 @@ void AssembledBody::evaluate(std::span<const double> x, const Forcing& forcing, 
     rhs_ -= result.force_mu;
   }
 
-  if (result.acceleration.size() != part) result.acceleration.setZero(part);
   for (const HeldDof& h : interval_->eliminated) {
     double a = 0.0;
     if (interval_->moving) {
@@ -184,19 +195,15 @@ std::span<const double> AssembledBody::multipliers(double t) {
   return {evaluation_.multipliers.data(), static_cast<std::size_t>(evaluation_.multipliers.size())};
 }
 
-void AssembledBody::reaction(const Evaluation& evaluation, const Forcing& forcing, Vector& out) const {
+void AssembledBody::reaction(const Evaluation& evaluation, const Forcing& forcing, Vector& out) {
   out.resize(evaluation.acceleration.size());
   model_.multiply_mass(evaluation.acceleration.data(), out.data());
   if (model_.layout.lambda) out += evaluation.force_lambda;
   if (model_.layout.mu) out += evaluation.force_mu;
-  out -= external_force(forcing);
-  std::vector<char> constrained(out.size(), 0);
-  for (const HeldDof& h : interval_->eliminated) constrained[h.dof] = 1;
-  for (const Column& column : interval_->solver->columns()) {
-    for (const auto& [dof, coefficient] : column.entries) constrained[dof] = 1;
-  }
+  external_force(forcing, external_);
+  out -= external_;
   for (Eigen::Index i = 0; i < out.size(); ++i) {
-    if (!constrained[i]) out[i] = 0.0;
+    if (!constrained_[i]) out[i] = 0.0;
   }
 }
 

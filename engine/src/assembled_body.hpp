@@ -38,13 +38,14 @@ class AssembledBody : public Body {
   void evaluate(std::span<const double> x, const Forcing& forcing, Evaluation& result);
   // evaluation_ and rate_ of the state at t.
   void evaluate_state(double t);
-  void reaction(const Evaluation& evaluation, const Forcing& forcing, Vector& out) const;
+  void reaction(const Evaluation& evaluation, const Forcing& forcing, Vector& out);
 
   Evaluation work_, evaluation_, derivative_;
   std::vector<StatePart> parts_;  // u, v, w_lambda, w_mu
   std::vector<double> rate_;
   bool evaluated_ = false;
-  Vector rhs_, target_, momentum_, reaction_, reaction_rate_;
+  Vector rhs_, target_, momentum_, reaction_, reaction_rate_, external_;
+  std::vector<char> constrained_;  // by degree of freedom
 };
 
 }  // namespace rheo

@@ -29,12 +29,11 @@ double Body::column_forcing(const Column& column, const Forcing& forcing) const 
   return b;
 }
 
-Vector Body::external_force(const Forcing& forcing) const {
-  Vector force = forcing.weight[0] * interval_->force;
+void Body::external_force(const Forcing& forcing, Vector& out) const {
+  out = forcing.weight[0] * interval_->force;
   if (interval_->force_rate.size() > 0) {
-    force += (forcing.weight[0] * (forcing.t - interval_->begin) + forcing.weight[1]) * interval_->force_rate;
+    out += (forcing.weight[0] * (forcing.t - interval_->begin) + forcing.weight[1]) * interval_->force_rate;
   }
-  return force;
 }
 
 }  // namespace rheo

@@ -29,7 +29,7 @@ namespace rheo {
 struct Interval {
   double begin = 0.0;
   Vector force;               // external force at `begin` [N]
-  Vector force_rate;          // its slope; empty where nothing changes
+  Vector force_rate;          // its slope; empty or zero where nothing changes
   std::vector<HeldDof> held;  // eliminated or, by Baumgarte for all, turned into columns
   std::vector<HeldDof> eliminated;
   std::vector<std::array<Polynomial, 2>> course;  // by holder: increment since the hold began
@@ -71,16 +71,20 @@ class Body : public LinearOperator {
   virtual void impose_prescribed(double t) = 0;
 
   virtual EnergySample sample(double t) = 0;
+  // Brings a sample of the same state up to date where only the interval is another one.
+  virtual void resample(double t, EnergySample& sample) { sample = this->sample(t); }
 
   // y' at the time of the last sample() while the state is still the same, else empty.
   virtual std::span<const double> known_rate() const { return {}; }
 
   // M a + F - f on constrained degrees of freedom, zero elsewhere: what the constraints do to the nodes.
   virtual void reaction(double t, Vector& out) = 0;
+  // The same where only some eliminated degrees of freedom are looked at; others may hold anything.
+  virtual void reaction_at(double t, std::span<const HeldDof> /*held*/, Vector& out) { reaction(t, out); }
   // One a general constraint.
   virtual std::span<const double> multipliers(double /*t*/) { return {}; }
 
-  Vector external_force(double t) const { return external_force({t, {1.0, 0.0, 0.0, 0.0}}); }
+  void external_force(double t, Vector& out) const { external_force({t, {1.0, 0.0, 0.0, 0.0}}, out); }
 
   // Prescribed displacement (derivative 0), velocity (1), ... of a held degree of freedom.
   double prescribed(const HeldDof& held, double t, int derivative) const;
@@ -92,7 +96,7 @@ class Body : public LinearOperator {
   Counters& counters() { return counters_; }
 
  protected:
-  Vector external_force(const Forcing& forcing) const;
+  void external_force(const Forcing& forcing, Vector& out) const;
 
   const Model& model_;
   double omega_;

@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "motion.hpp"
@@ -85,6 +86,13 @@ ConstraintSolver::ConstraintSolver(const Model& model, const std::vector<HeldDof
   if (!columns_.empty()) factor_schur();
 }
 
+void ConstraintSolver::hold(const std::vector<HeldDof>& eliminated) {
+  assert(model_.material.mass == Mass::lumped && columns_.empty());
+  std::fill(free_.begin(), free_.end(), 1);
+  for (const HeldDof& h : eliminated) free_[h.dof] = 0;
+  factor_mass();
+}
+
 void ConstraintSolver::factor_mass() {
   const auto n = static_cast<int>(model_.node_mass.size());
   if (model_.material.mass == Mass::lumped) {
@@ -92,6 +100,7 @@ void ConstraintSolver::factor_mass() {
     for (int i = 0; i < 2 * n; ++i) inverse_mass_[i] = free_[i] ? 1.0 / model_.node_mass[i / 2] : 0.0;
     return;
   }
+  packed_.setZero(n);
   for (int axis = 0; axis < 2; ++axis) {
     for (int i = 0; i < n; ++i) {
       if (free_[2 * i + axis]) axis_[axis].nodes.push_back(i);
@@ -111,7 +120,15 @@ void ConstraintSolver::factor_mass() {
     const auto size = static_cast<Eigen::Index>(nodes.size());
     Eigen::SparseMatrix<double> free_mass(size, size);
     free_mass.setFromTriplets(entries.begin(), entries.end());
-    if (size > 0) axis_[axis].factor = std::make_unique<Factor>(free_mass);
+    if (size == 0) continue;
+    axis_[axis].factor = std::make_unique<Factor>(free_mass);
+    // The factor's fill-reducing order becomes that of the list: solves need no permutation.
+    const auto& order = axis_[axis].factor->permutationPinv().indices();
+    if (order.size() > 0) {
+      std::vector<int> ordered(nodes.size());
+      for (std::size_t k = 0; k < nodes.size(); ++k) ordered[k] = nodes[order[static_cast<Eigen::Index>(k)]];
+      axis_[axis].nodes = std::move(ordered);
+    }
   }
 }
 
@@ -123,12 +140,16 @@ void ConstraintSolver::apply_inverse_mass(const Vector& r, Vector& a) const {
     return;
   }
   for (int axis = 0; axis < 2; ++axis) {
-    const std::vector<int>& nodes = axis_[axis].nodes;
+    const AxisFactor& packing = axis_[same_axes_ ? 0 : axis];
+    const std::vector<int>& nodes = packing.nodes;
     if (nodes.empty()) continue;
-    packed_.resize(static_cast<Eigen::Index>(nodes.size()));
-    for (std::size_t k = 0; k < nodes.size(); ++k) packed_[k] = r[2 * nodes[k] + axis];
-    packed_ = axis_[same_axes_ ? 0 : axis].factor->solve(packed_);
-    for (std::size_t k = 0; k < nodes.size(); ++k) a[2 * nodes[k] + axis] = packed_[k];
+    auto packed = packed_.head(static_cast<Eigen::Index>(nodes.size()));
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      packed[static_cast<Eigen::Index>(k)] = r[2 * nodes[k] + axis];
+    packing.factor->matrixL().solveInPlace(packed);
+    packing.factor->matrixU().solveInPlace(packed);
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      a[2 * nodes[k] + axis] = packed[static_cast<Eigen::Index>(k)];
   }
 }
 
@@ -196,12 +217,24 @@ void ConstraintSolver::factor_schur() {
   }
   schur_ = std::make_unique<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>();
   schur_->compute(schur);
-  const Vector pivots = schur_->vectorD();
+  pivots_ = schur_->vectorD();
+  packed_multipliers_.setZero(size);
   for (Eigen::Index k = 0; k < size; ++k) {
     const int j =
         schur_->permutationPinv().size() > 0 ? schur_->permutationPinv().indices()[k] : static_cast<int>(k);
-    if (!(pivots[k] > dependent_pivot * scale[j])) refuse_dependent(j);
+    if (!(pivots_[k] > dependent_pivot * scale[j])) refuse_dependent(j);
   }
+}
+
+// What schur_->solve() does, in memory that stays.
+void ConstraintSolver::solve_schur(Vector& x) const {
+  const auto& order = schur_->permutationPinv().indices();
+  Vector& packed = packed_multipliers_;
+  for (Eigen::Index k = 0; k < x.size(); ++k) packed[k] = x[order.size() > 0 ? order[k] : k];
+  schur_->matrixL().solveInPlace(packed);
+  packed.array() /= pivots_.array();
+  schur_->matrixU().solveInPlace(packed);
+  for (Eigen::Index k = 0; k < x.size(); ++k) x[order.size() > 0 ? order[k] : k] = packed[k];
 }
 
 void ConstraintSolver::refuse_dependent(std::size_t column) const {
@@ -274,7 +307,7 @@ void ConstraintSolver::solve(const Vector& r, Vector& a, const Vector& target, V
   if (columns_.empty()) return;
   multipliers = target;
   for (std::size_t j = 0; j < columns_.size(); ++j) multipliers[j] -= row_times(j, a.data());
-  multipliers = schur_->solve(multipliers);
+  solve_schur(multipliers);
   work_.setZero();
   for (std::size_t j = 0; j < columns_.size(); ++j) {
     for (const auto& [dof, coefficient] : columns_[j].entries) work_[dof] += coefficient * multipliers[j];

@@ -59,6 +59,10 @@ class ConstraintSolver {
   const std::vector<Column>& columns() const { return columns_; }
   bool is_free(std::size_t dof) const { return free_[dof] != 0; }
 
+  // Other degrees of freedom are eliminated from now on. For lumped mass without columns, where nothing is
+  // factored: allocates nothing.
+  void hold(const std::vector<HeldDof>& eliminated);
+
   // a: on entry the given values on eliminated degrees of freedom (others ignored), on return the whole
   // solution. target: one number a column; on return of the same size, multipliers = L.
   void solve(const Vector& r, Vector& a, const Vector& target, Vector& multipliers) const;
@@ -71,6 +75,7 @@ class ConstraintSolver {
 
   void factor_mass();
   void factor_schur();
+  void solve_schur(Vector& x) const;
   void apply_inverse_mass(const Vector& r, Vector& a) const;  // free rows only
   [[noreturn]] void refuse_dependent(std::size_t column) const;
 
@@ -79,14 +84,15 @@ class ConstraintSolver {
   std::vector<char> free_;
   Vector inverse_mass_;  // lumped: 2n, zero where eliminated
   struct AxisFactor {
-    std::vector<int> nodes;  // free nodes of this axis
+    std::vector<int> nodes;  // free nodes of this axis, in the factor's order
     std::unique_ptr<Factor> factor;
   };
   AxisFactor axis_[2];
   bool same_axes_ = false;  // both axes share axis_[0].factor
   std::unique_ptr<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>> schur_;
   mutable Vector work_, correction_;
-  mutable Vector packed_;
+  Vector pivots_;  // D of schur_
+  mutable Vector packed_, packed_multipliers_;
 };
 
 }  // namespace rheo

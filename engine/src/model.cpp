@@ -102,6 +102,9 @@ Model::Model(const Mesh& mesh, const Material& m, Assembly assembly) : material(
   layout.mu = m.mu_ela > 0.0;
   if (assembly == Assembly::edges) {
     edges = std::make_unique<EdgeForce>(std::make_shared<EdgeForm>(mesh, combined(m)), best_simd_level());
+  } else if (assembly == Assembly::elements) {
+    elements = std::make_unique<ElementForce>(std::make_shared<ElementForm>(mesh, Regions{{m}, {}}),
+                                              best_simd_level());
   } else {
     if (layout.lambda) j_lambda = connection_matrix(mesh, Tensor::lambda);
     if (layout.mu) j_mu = connection_matrix(mesh, Tensor::mu);
@@ -145,6 +148,11 @@ Vector Model::stiffness(double lambda, double mu, const Vector& x) const {
   if (edges) {
     const auto size = static_cast<std::size_t>(x.size());
     edges->stiffness(lambda, mu, {x.data(), size}, {result.data(), size});
+    return result;
+  }
+  if (elements) {
+    const auto size = static_cast<std::size_t>(x.size());
+    elements->stiffness(lambda, mu, {x.data(), size}, {result.data(), size});
     return result;
   }
   if (layout.lambda && lambda != 0.0) result += lambda * (j_lambda * x);

@@ -15,6 +15,7 @@
 #include <memory>
 
 #include "kernels/edge_force.hpp"
+#include "kernels/element_force.hpp"
 #include "rheo/scene.hpp"
 
 namespace rheo {
@@ -37,8 +38,8 @@ struct Layout {
   std::size_t size() const { return (2 + (lambda ? 1 : 0) + (mu ? 1 : 0)) * part; }
 };
 
-// Whether J_lambda and J_mu are assembled, or left to the edge form.
-enum class Assembly { matrices, edges };
+// Whether J_lambda and J_mu are assembled, or left to the edge or the element form.
+enum class Assembly { matrices, edges, elements };
 
 struct Model {
   Model(const Mesh& mesh, const Material& material, Assembly assembly = Assembly::matrices);
@@ -50,9 +51,10 @@ struct Model {
 
   Material material;
   Layout layout;
-  SparseMatrix j_lambda;  // empty where lambda_ela = 0, and with Assembly::edges
+  SparseMatrix j_lambda;  // empty where lambda_ela = 0, and without Assembly::matrices
   SparseMatrix j_mu;
-  std::unique_ptr<EdgeForce> edges;  // with Assembly::edges
+  std::unique_ptr<EdgeForce> edges;        // with Assembly::edges
+  std::unique_ptr<ElementForce> elements;  // with Assembly::elements
   Vector node_mass;
   SparseMatrix mass;
 

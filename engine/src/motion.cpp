@@ -1,6 +1,7 @@
 #include "motion.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rheo {
 namespace {
@@ -55,6 +56,12 @@ double Polynomial::derivative(double t, int order) const {
   return result;
 }
 
+double Polynomial::derivative_size(double t, int order) const {
+  Polynomial sizes{0.0, c};
+  for (double& coefficient : sizes.c) coefficient = std::abs(coefficient);
+  return sizes.derivative(std::abs(t - t0), order);
+}
+
 bool Polynomial::is_zero() const {
   return std::all_of(c.begin(), c.end(), [](double x) { return x == 0.0; });
 }
@@ -77,6 +84,15 @@ std::array<Polynomial, 2> piece_at(const Traction& traction, double t) {
   const TractionKey& a = keys[i];
   if (i + 1 == static_cast<int>(keys.size())) return {constant(a.t, a.p.x), constant(a.t, a.p.y)};
   const TractionKey& b = keys[i + 1];
+  return linear_piece(a, b);
+}
+
+std::array<Polynomial, 2> hermite_piece(const MoveKey& a, const MoveKey& b) {
+  return {between(Profile::hermite, a.t, b.t, a.u.x, b.u.x, a.v.x, b.v.x),
+          between(Profile::hermite, a.t, b.t, a.u.y, b.u.y, a.v.y, b.v.y)};
+}
+
+std::array<Polynomial, 2> linear_piece(const TractionKey& a, const TractionKey& b) {
   return {between(Profile::linear, a.t, b.t, a.p.x, b.p.x, 0, 0),
           between(Profile::linear, a.t, b.t, a.p.y, b.p.y, 0, 0)};
 }

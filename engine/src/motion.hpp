@@ -21,6 +21,8 @@ struct Polynomial {
 
   double derivative(double t, int order) const;
   double value(double t) const { return derivative(t, 0); }
+  // Sum of its terms' sizes: what its rounding is relative to.
+  double derivative_size(double t, int order) const;
   bool is_zero() const;
 };
 
@@ -29,6 +31,10 @@ std::array<Polynomial, 2> piece_at(const Move& move, double t);
 
 // Likewise for a traction; degree 1.
 std::array<Polynomial, 2> piece_at(const Traction& traction, double t);
+
+// Between two neighbouring keys: a hermite motion's cubic, a traction's line.
+std::array<Polynomial, 2> hermite_piece(const MoveKey& a, const MoveKey& b);
+std::array<Polynomial, 2> linear_piece(const TractionKey& a, const TractionKey& b);
 
 // Whether two moves prescribe the same displacement increments.
 bool same_course(const Move& a, const Move& b);

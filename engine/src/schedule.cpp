@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
+#include <map>
 
 #include "full_spectrum.hpp"
 #include "lanczos.hpp"
@@ -25,23 +25,51 @@ bool has_columns(const Scene& scene) {
 Schedule::Schedule(const Scene& scene, const Model& model)
     : scene_(scene), model_(model), events_(event_times(scene)), holders_(holders_of(scene)) {
   for (const Traction& traction : scene.tractions) {
-    std::map<int, double> weights;
-    for (const Edge& edge : traction.edges) {
-      const Vec2& p = scene.mesh.points[edge[0]];
-      const Vec2& q = scene.mesh.points[edge[1]];
-      const double half = 0.5 * scene.mesh.thickness * std::hypot(q.x - p.x, q.y - p.y);
-      weights[edge[0]] += half;
-      weights[edge[1]] += half;
+    load_pattern(scene.mesh, traction.edges, patterns_.emplace_back());
+  }
+  std::map<Signature, std::size_t> known;
+  for (std::size_t i = 0; i < events_.size(); ++i) {
+    const auto [place, is_new] = known.try_emplace(signature(i), sets_.size());
+    set_of_.push_back(place->second);
+    if (!is_new) continue;
+    Held made = make_held(place->first);  // refuses what cannot be
+    if (sets_.size() >= solvers_kept) made = {place->first, {}, nullptr};
+    sets_.push_back(std::move(made));
+  }
+  make_spectrum();
+}
+
+void load_pattern(const Mesh& mesh, std::span<const Edge> edges, LoadPattern& out) {
+  out.clear();
+  for (const Edge& edge : edges) {
+    const Vec2& p = mesh.points[edge[0]];
+    const Vec2& q = mesh.points[edge[1]];
+    const double half = 0.5 * mesh.thickness * std::hypot(q.x - p.x, q.y - p.y);
+    for (const int node : edge) out.emplace_back(node, half);
+  }
+  // By node, then by size: a sum does not depend on the order of the edges.
+  std::sort(out.begin(), out.end());
+  std::size_t last = 0;
+  for (std::size_t k = 1; k < out.size(); ++k) {
+    if (out[k].first == out[last].first) {
+      out[last].second += out[k].second;
+    } else {
+      out[++last] = out[k];
     }
-    patterns_.emplace_back(weights.begin(), weights.end());
   }
-  std::set<Signature> distinct;
-  for (std::size_t i = 0; i < events_.size(); ++i) distinct.insert(signature(i));
-  for (const Signature& s : distinct) {
-    const auto made = make_solver(s);
-    if (solvers_.size() < solvers_kept) solvers_[s] = made;
+  if (!out.empty()) out.resize(last + 1);
+}
+
+void add_traction(Interval& interval, const LoadPattern& pattern, const std::array<Polynomial, 2>& course) {
+  for (int axis = 0; axis < 2; ++axis) {
+    const double value = course[axis].value(interval.begin);
+    const double slope = course[axis].derivative(interval.begin, 1);
+    if (slope != 0.0 && interval.force_rate.size() == 0) interval.force_rate.setZero(interval.force.size());
+    for (const auto& [node, weight] : pattern) {
+      interval.force[2 * node + axis] += weight * value;
+      if (slope != 0.0) interval.force_rate[2 * node + axis] += weight * slope;
+    }
   }
-  make_spectrum({distinct.begin(), distinct.end()});
 }
 
 double Schedule::end(std::size_t i) const {
@@ -59,8 +87,7 @@ Schedule::Signature Schedule::signature(std::size_t i) const {
   return active;
 }
 
-std::shared_ptr<const ConstraintSolver> Schedule::make_solver(const Signature& active) const {
-  std::vector<HeldDof> held = held_dofs(holders_, active);
+std::vector<Column> Schedule::general_columns() const {
   std::vector<Column> columns;
   for (const Constraint& constraint : scene_.constraints) {
     Column column;
@@ -71,19 +98,40 @@ std::shared_ptr<const ConstraintSolver> Schedule::make_solver(const Signature& a
     column.where = constraint.where;
     columns.push_back(std::move(column));
   }
+  return columns;
+}
+
+Schedule::Held Schedule::make_held(const Signature& active) const {
+  Held result{active, held_dofs(holders_, active), nullptr};
+  std::vector<HeldDof> eliminated = result.held;
+  std::vector<Column> columns = general_columns();
   if (scene_.time.constraints == ConstraintMethod::baumgarte) {
-    for (const HeldDof& h : held) columns.push_back({{{h.dof, 1.0}}, 0.0, h.owner, holders_[h.owner].where});
-    held.clear();
+    for (const HeldDof& h : result.held)
+      columns.push_back({{{h.dof, 1.0}}, 0.0, h.owner, holders_[h.owner].where});
+    eliminated.clear();
   }
-  return std::make_shared<ConstraintSolver>(model_, held, std::move(columns));
+  result.solver = std::make_shared<ConstraintSolver>(model_, eliminated, std::move(columns));
+  return result;
 }
 
-std::shared_ptr<const ConstraintSolver> Schedule::solver(const Signature& active) {
-  const auto known = solvers_.find(active);
-  return known != solvers_.end() ? known->second : make_solver(active);
+std::shared_ptr<const ConstraintSolver> Schedule::solver_holding(std::size_t i,
+                                                                 const std::vector<HeldDof>& held) {
+  if (holding_is_free()) {
+    if (!working_) working_ = std::make_shared<ConstraintSolver>(model_, held, std::vector<Column>{});
+    working_->hold(held);
+    return working_;
+  }
+  for (const Holding& known : holding_) {
+    if (known.set == set_of_[i] &&
+        std::equal(known.held.begin(), known.held.end(), held.begin(), held.end(),
+                   [](const HeldDof& a, const HeldDof& b) { return a.dof == b.dof; }))
+      return known.solver;
+  }
+  holding_.push_back({set_of_[i], held, std::make_shared<ConstraintSolver>(model_, held, general_columns())});
+  return holding_.back().solver;
 }
 
-void Schedule::make_spectrum(const std::vector<Signature>& signatures) {
+void Schedule::make_spectrum() {
   const Material& material = scene_.material;
   Spectrum& s = spectrum_;
   s.lambda_on = material.lambda_ela > 0.0;
@@ -96,7 +144,7 @@ void Schedule::make_spectrum(const std::vector<Signature>& signatures) {
   double omega = 0.0;
   // Every set of constraints must give its eigenvalues, or none counts.
   bool eigenvalues = scene_.time.integrator == IntegratorKind::euler && s.lambda_on && s.mu_on &&
-                     s.lambda_rate != s.mu_rate && signatures.size() <= spectra_taken;
+                     s.lambda_rate != s.mu_rate && sets_.size() <= spectra_taken;
   const auto include = [&](const ConstraintSolver& constrained) {
     if (eigenvalues) {
       const auto found = full_spectrum(model_, constrained);
@@ -107,8 +155,8 @@ void Schedule::make_spectrum(const std::vector<Signature>& signatures) {
     omega = std::max(omega, bound.omega);
     s.lanczos_steps = std::max(s.lanczos_steps, bound.steps);
   };
-  if (signatures.size() <= spectra_taken) {
-    for (const Signature& active : signatures) include(*solver(active));
+  if (sets_.size() <= spectra_taken) {
+    for (const Held& set : sets_) include(*set.solver);
   } else {
     include(ConstraintSolver(model_, {}, {}));
   }
@@ -117,14 +165,21 @@ void Schedule::make_spectrum(const std::vector<Signature>& signatures) {
   if (has_columns(scene_)) s.baumgarte = scene_.time.baumgarte;
 }
 
-Interval Schedule::interval(std::size_t i) {
-  Interval result;
-  result.begin = events_[i];
+void Schedule::fill(std::size_t i, double begin, Interval& result) {
+  result.begin = begin;
   const double inside = middle(i);
-  const Signature active = signature(i);
-  result.held = held_dofs(holders_, active);
+  const Held* set = &sets_[set_of_[i]];
+  if (!set->solver) {
+    if (unkept_.active != set->active) unkept_ = make_held(set->active);
+    set = &unkept_;
+  }
+  const Signature& active = set->active;
+  result.held = set->held;
+  result.eliminated.clear();
   if (scene_.time.constraints == ConstraintMethod::automatic) result.eliminated = result.held;
-  result.solver = solver(active);
+  result.solver = set->solver;
+  result.course.clear();
+  result.moving = false;
   for (std::size_t k = 0; k < holders_.size(); ++k) {
     std::array<Polynomial, 2> course{};
     if (active[k] && holders_[k].move != nullptr) {
@@ -141,6 +196,7 @@ Interval Schedule::interval(std::size_t i) {
 
   const auto size = static_cast<Eigen::Index>(model_.layout.part);
   result.force.setZero(size);
+  if (result.force_rate.size() > 0) result.force_rate.setZero();
   for (Eigen::Index n = 0; n < size / 2; ++n) {
     result.force[2 * n] = model_.node_mass[n] * scene_.body_acceleration.x;
     result.force[2 * n + 1] = model_.node_mass[n] * scene_.body_acceleration.y;
@@ -148,18 +204,28 @@ Interval Schedule::interval(std::size_t i) {
   for (std::size_t k = 0; k < scene_.tractions.size(); ++k) {
     const Traction& traction = scene_.tractions[k];
     if (!is_active(traction.window, inside)) continue;
-    const auto course = piece_at(traction, inside);
-    for (int axis = 0; axis < 2; ++axis) {
-      const double value = course[axis].value(result.begin);
-      const double slope = course[axis].derivative(result.begin, 1);
-      if (slope != 0.0 && result.force_rate.size() == 0) result.force_rate.setZero(size);
-      for (const auto& [node, weight] : patterns_[k]) {
-        result.force[2 * node + axis] += weight * value;
-        if (slope != 0.0) result.force_rate[2 * node + axis] += weight * slope;
-      }
-    }
+    add_traction(result, patterns_[k], piece_at(traction, inside));
   }
-  return result;
+}
+
+std::int64_t Schedule::planned_steps(double bound) const {
+  const TimeSettings& settings = scene_.time;
+  std::int64_t steps = 0;
+  double t = 0.0;
+  std::size_t interval = 0;
+  const auto run_to = [&](double target) {
+    while (t < target && !same_time(t, target)) {
+      const double event = end(interval);
+      const bool passes = event <= target || same_time(event, target);
+      const double stop = passes ? event : target;
+      steps += steps_in(stop - t, bound);
+      t = stop;
+      if (passes) ++interval;
+    }
+  };
+  for (std::int64_t k = 0; k < output_count(settings); ++k) run_to(output_time(settings, k));
+  run_to(settings.duration);
+  return steps;
 }
 
 std::vector<Simulation::ActiveTraction> Schedule::active_tractions(std::size_t i, double t) const {

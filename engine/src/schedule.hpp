@@ -4,8 +4,8 @@
 // Errors   Error::Kind::input from held_dofs and ConstraintSolver, for every interval at construction
 #pragma once
 
-#include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "body.hpp"
@@ -17,6 +17,13 @@ namespace rheo {
 // Whether some constraint of the scene is not eliminated but solved for (equation 4).
 bool has_columns(const Scene& scene);
 
+// Node and h l / 2, summed over a traction's edges; rising nodes.
+using LoadPattern = std::vector<std::pair<int, double>>;
+// Into memory of 2 entries an edge that `out` may have already.
+void load_pattern(const Mesh& mesh, std::span<const Edge> edges, LoadPattern& out);
+// A traction's part of an interval's force and its slope.
+void add_traction(Interval& interval, const LoadPattern& pattern, const std::array<Polynomial, 2>& course);
+
 class Schedule {
  public:
   // Both must outlive this.
@@ -26,7 +33,23 @@ class Schedule {
   double begin(std::size_t i) const { return events_[i]; }
   double end(std::size_t i) const;  // infinite for the last
 
-  Interval interval(std::size_t i);
+  Interval interval(std::size_t i) {
+    Interval result;
+    fill(i, begin(i), result);
+    return result;
+  }
+  // What holds from `begin` on, a time in interval i. Allocates nothing where `out` was filled before, but
+  // for sets of constraints beyond the first 16.
+  void fill(std::size_t i, double begin, Interval& out);
+  // The solver of interval i where `held` is eliminated beside its constraints (all of them in `held`);
+  // lumped mass without [[constraint]]: one solver, made over at each call, without allocation; else made
+  // where it was not asked for before.
+  std::shared_ptr<const ConstraintSolver> solver_holding(std::size_t i, const std::vector<HeldDof>& held);
+  // Whether that needs no factor.
+  bool holding_is_free() const { return scene_.material.mass == Mass::lumped && scene_.constraints.empty(); }
+  std::size_t holder_count() const { return holders_.size(); }
+  // Steps of at most `bound` through all intervals and outputs.
+  std::int64_t planned_steps(double bound) const;
   std::vector<Simulation::ActiveTraction> active_tractions(std::size_t i, double t) const;
 
   // Over all sets of constraints that the scene goes through.
@@ -37,16 +60,31 @@ class Schedule {
 
   double middle(std::size_t i) const;
   Signature signature(std::size_t i) const;
-  std::shared_ptr<const ConstraintSolver> solver(const Signature& signature);
-  std::shared_ptr<const ConstraintSolver> make_solver(const Signature& signature) const;
-  void make_spectrum(const std::vector<Signature>& signatures);
+  std::vector<Column> general_columns() const;
+  // What a set of active holders holds, and the solver for it.
+  struct Held {
+    Signature active;
+    std::vector<HeldDof> held;
+    std::shared_ptr<const ConstraintSolver> solver;
+  };
+  Held make_held(const Signature& active) const;
+  void make_spectrum();
 
   const Scene& scene_;
   const Model& model_;
   std::vector<double> events_;
   std::vector<Holder> holders_;
-  std::vector<std::vector<std::pair<int, double>>> patterns_;  // by traction: node, h l / 2 summed
-  std::map<Signature, std::shared_ptr<const ConstraintSolver>> solvers_;
+  std::vector<LoadPattern> patterns_;          // by traction
+  std::vector<Held> sets_;                     // distinct; beyond those kept the signature alone
+  std::vector<std::size_t> set_of_;            // by interval
+  Held unkept_;                                // the last one made again
+  std::shared_ptr<ConstraintSolver> working_;  // of solver_holding
+  struct Holding {
+    std::size_t set = 0;
+    std::vector<HeldDof> held;
+    std::shared_ptr<const ConstraintSolver> solver;
+  };
+  std::vector<Holding> holding_;
   Spectrum spectrum_;
 };
 

@@ -9,7 +9,10 @@
 
 #include "assembled_body.hpp"
 #include "energy_book.hpp"
+#include "hands.hpp"
+#include "holds.hpp"
 #include "kernels/edge_body.hpp"
+#include "kernels/element_body.hpp"
 #include "kernels/flush_denormals.hpp"
 #include "model.hpp"
 #include "rheo/error.hpp"
@@ -20,38 +23,52 @@
 namespace rheo {
 namespace {
 
-constexpr double auto_fraction = 0.25;  // of the stable limit
-constexpr double most_steps = 1e15;     // counted exactly by a double, and beyond any patience
+constexpr double most_steps = 1e15;  // counted exactly by a double, and beyond any patience
 constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t unasked_stride = 16;  // steps between looks at the energy where nobody asks for it
 // Of all energy that ever went in: what is left below it cannot move the body by a rounding of its course.
 constexpr double energy_at_rest = 1e-32;
 constexpr double violation_allowed = 0.01;  // of a constraint's coefficients times the largest |u|
-
 const Scene& validated(const Scene& scene) {
   validate(scene);
   return scene;
 }
 
-// Steps of at most `bound` that divide a stretch of time.
-std::int64_t steps_in(double length, double bound) {
-  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / bound * (1.0 - 1e-12))));
+// The first node whose velocity is no number, or the one with the largest.
+int fastest_node(const VectorMap& v) {
+  double fastest = -1.0;
+  Eigen::Index found = 0;
+  for (Eigen::Index node = 0; node < v.size() / 2; ++node) {
+    const double speed = std::hypot(v[2 * node], v[2 * node + 1]);
+    if (!std::isfinite(speed)) return static_cast<int>(node);
+    if (speed > fastest) {
+      fastest = speed;
+      found = node;
+    }
+  }
+  return static_cast<int>(found);
 }
 
 // The fastest kernel that the scene's mass and constraints allow, unless one is asked for.
 Assembly assembly_for(const Scene& scene, Kernel kernel) {
   const bool implicit = scene.time.integrator == IntegratorKind::implicit;
-  if (kernel == Kernel::edge && implicit) {
-    throw Error(Error::Kind::input,
-                "kernel edge has no matrices, which integrator = \"implicit\" factors: use auto or csr");
+  const bool asked = kernel == Kernel::edge || kernel == Kernel::element;
+  const char* name = kernel == Kernel::edge ? "edge" : "element";
+  if (asked && implicit) {
+    throw Error(
+        Error::Kind::input,
+        fmt::format("kernel {} has no matrices, which integrator = \"implicit\" factors: use auto or csr",
+                    name));
   }
-  const bool edges = scene.material.mass == Mass::lumped && !has_columns(scene) && !implicit;
-  if (kernel == Kernel::edge && !edges) {
+  const bool by_nodes = scene.material.mass == Mass::lumped && !has_columns(scene) && !implicit;
+  if (asked && !by_nodes) {
     throw Error(Error::Kind::input,
-                "kernel edge needs mass = \"lumped\" and constraints = \"auto\" without [[constraint]]: use "
-                "auto or csr");
+                fmt::format("kernel {} needs mass = \"lumped\" and constraints = \"auto\" without "
+                            "[[constraint]]: use auto or csr",
+                            name));
   }
-  return edges && kernel != Kernel::csr ? Assembly::edges : Assembly::matrices;
+  if (kernel == Kernel::element) return Assembly::elements;
+  return by_nodes && kernel != Kernel::csr ? Assembly::edges : Assembly::matrices;
 }
 
 }  // namespace
@@ -60,20 +77,16 @@ struct Simulation::Impl {
   Impl(Scene&& s, const SimulationOptions& options)
       : scene(std::move(s)),
         model(validated(scene).mesh, scene.material, assembly_for(scene, options.kernel)),
+        asked(options),
         schedule(scene, model),
         spectrum(schedule.spectrum()),
         body(make_body(options.threads)),
         integrator(make_integrator(scene.time.integrator, body->size(), exponential_settings())),
         stride(options.energies ? 1 : unasked_stride),
         y(model.layout.size(), 0.0),
-        zeros(model.layout.part, 0.0) {
+        zeros(model.layout.part, 0.0),
+        holds(model, scene.constraints.size()) {
     choose_step(options);
-    const auto part = static_cast<Eigen::Index>(model.layout.part);
-    base.setZero(part);
-    jump.setZero(part);
-    dv.setZero(part);
-    momentum.setZero(part);
-    owner.assign(model.layout.part, -1);
     enter(0);
   }
 
@@ -137,7 +150,7 @@ struct Simulation::Impl {
           stable_step_is_bound(spectrum, settings.integrator) ? "step that is surely stable" : "stable step",
           name, limit));
     }
-    bound = given ? settings.step : takes_long_steps() ? limit : auto_fraction * limit;
+    bound = given ? settings.step : takes_long_steps() ? limit : options.stable_share * limit;
     if (!(settings.duration / bound < most_steps)) {
       refuse_step(
           fmt::format("step = {}: {:g} s needs {:.2g} steps for the duration of {:g} s, at most {:g} can be "
@@ -149,6 +162,7 @@ struct Simulation::Impl {
 
   std::unique_ptr<Body> make_body(int threads) const {
     if (model.edges) return std::make_unique<EdgeBody>(model, *model.edges, threads);
+    if (model.elements) return std::make_unique<ElementBody>(model, *model.elements, threads);
     if (implicit()) {
       require_few_general_constraints(scene);
       return std::make_unique<ShiftedBody>(model, scene.time.baumgarte);
@@ -168,66 +182,37 @@ struct Simulation::Impl {
   // Passes an event: new loads and constraints, and the velocity's jump where a constraint begins or its b'
   // jumps.
   void enter(std::size_t i) {
-    const bool first = i == 0;
-    Interval next = schedule.interval(i);
-    // Base: u - key at the hold's beginning, so that b = base + key.
-    bool begins = first;
-    std::vector<int> next_owner(owner.size(), -1);
-    for (const HeldDof& h : next.held) {
-      next_owner[h.dof] = h.owner;
-      const Polynomial& course = next.course[h.owner][h.dof % 2];
-      const double after = course.derivative(next.begin, 1);
-      if (owner[h.dof] != h.owner) {
-        base[h.dof] = u()[h.dof] - course.value(next.begin);
-        jump[h.dof] = after - v()[h.dof];
-        begins = true;
-      } else {
-        const double before = interval.course[h.owner][h.dof % 2].derivative(next.begin, 1);
-        // The same velocity from two polynomials differs by rounding.
-        const bool jumps = std::abs(after - before) > 1e-12 * (std::abs(after) + std::abs(before));
-        jump[h.dof] = jumps ? after - before : 0.0;
-        begins = begins || jumps;
-      }
-    }
-    owner = std::move(next_owner);
-    const bool other_constraints = next.solver != interval.solver;
-    interval = std::move(next);
     index = i;
-    body->enter(interval, base);
-    if (begins && project_velocity(first)) body->load(y);
-    body->impose_prescribed(time);
-    changed();
-    if (begins || other_constraints) note_violations();
+    enter_from(schedule.begin(i));
   }
 
-  // v+ = v + M^-1 A L: an impulse, whose energy is work. A constraint that begins takes A^T v to b'; one that
-  // goes on changes A^T v by the jump of its b' only, so that Baumgarte's decay of what it had is left alone.
-  bool project_velocity(bool first) {
-    const ConstraintSolver& solver = *interval.solver;
-    const std::size_t columns = solver.columns().size();
-    bool any = false;
-    for (const HeldDof& h : interval.eliminated) {
-      dv[h.dof] = jump[h.dof];
-      any = any || dv[h.dof] != 0.0;
-    }
-    Vector target(static_cast<Eigen::Index>(columns)), impulse;
-    for (std::size_t j = 0; j < columns; ++j) {
-      const Column& column = solver.columns()[j];
-      if (column.owner >= 0) {
-        target[j] = jump[column.entries.front().first];
-      } else {
-        target[j] = first ? -solver.row_times(j, v().data()) : 0.0;
+  // The same at a time in the current interval, where only the hands changed what they do.
+  void enter_from(double begin) {
+    const bool first = !entered;
+    entered = true;
+    schedule.fill(index, begin, next);
+    if (hands != nullptr && hands->add_to(next)) next.solver = schedule.solver_holding(index, next.held);
+    if (holds.change_owners(next, hands)) fetch();
+    const bool begins =
+        holds.find_jumps(interval, next, y.data() + model.layout.u(), y.data() + model.layout.v()) || first;
+    const bool other_constraints = next.solver != interval.solver;
+    std::swap(interval, next);
+    body->enter(interval, holds.base());
+    bool projected = false;
+    if (begins) {
+      const auto general = first ? Holds::General::begin : Holds::General::go_on;
+      if (const auto work = holds.project(interval, general, v())) {
+        book.book_impulse(*work);
+        ++body->counters().projections;
+        body->load(y);
+        projected = true;
       }
-      any = any || target[j] != 0.0;
     }
-    if (!any) return false;
-    solver.solve(Vector::Zero(dv.size()), dv, target, impulse);
-    model.multiply_mass(dv.data(), momentum.data());
-    const double work = momentum.dot(v()) + 0.5 * momentum.dot(dv);
-    v() += dv;
-    book.book_impulse(work);
-    ++body->counters().projections;
-    return true;
+    body->impose_prescribed(time);
+    const bool known = sampled && !projected;
+    changed();
+    state_sampled = known;  // but for the loads and constraints, the last sample holds
+    if (begins || other_constraints) note_violations();
   }
 
   double violation(std::size_t column) {
@@ -246,7 +231,7 @@ struct Simulation::Impl {
   // The body's state is another one now.
   void changed() {
     y_current = false;
-    sampled = false;
+    sampled = state_sampled = false;
     reaction_known = false;
   }
 
@@ -259,24 +244,31 @@ struct Simulation::Impl {
 
   void sample_now() {
     if (sampled) return;
-    sample = body->sample(time);
-    ++body->counters().energy_samples;
+    if (state_sampled) {
+      body->resample(time, sample);
+    } else {
+      sample = body->sample(time);
+      ++body->counters().energy_samples;
+    }
     sample_time = time;
-    sampled = true;
+    sampled = state_sampled = true;
+  }
+
+  void know_reaction_at(std::span<const HeldDof> held) {
+    if (!reaction_known) body->reaction_at(time, held, reaction);
   }
 
   void know_reaction() {
     if (reaction_known) return;
     body->reaction(time, reaction);
-    external = body->external_force(time);
+    body->external_force(time, external);
     reaction_known = true;
   }
 
   // Nothing acts, nothing is moved, and what is left of the energy is nothing beside what went in.
   bool at_rest() {
-    if (interval.moving || interval.force_rate.size() > 0 || !interval.solver->columns().empty())
-      return false;
-    if (!(interval.force.array() == 0.0).all()) return false;
+    if (interval.moving || !interval.solver->columns().empty()) return false;
+    if (!(interval.force.array() == 0.0).all() || !(interval.force_rate.array() == 0.0).all()) return false;
     sample_now();
     return sample.kinetic + sample.stored <= energy_at_rest * book.turnover();
   }
@@ -343,20 +335,28 @@ struct Simulation::Impl {
     return divergence_now();
   }
 
+  // Takes all memory that the hands will need.
+  void attach(Hands& others) {
+    hands = &others;
+    // Beside the scene's constraints only more are held, and a held body's frequencies interlace with the
+    // free one's: the limit stands. Eigenvalues of the scene's own sets say nothing of others.
+    spectrum.eigenvalues.clear();
+    choose_step(asked);
+    for (Interval* i : {&interval, &next}) {
+      i->force_rate.setZero(static_cast<Eigen::Index>(model.layout.part));
+      i->course.reserve(schedule.holder_count() + hands->owner_count());
+      i->held.reserve(model.layout.part);
+      i->eliminated.reserve(model.layout.part);
+    }
+    reaction.setZero(static_cast<Eigen::Index>(model.layout.part));
+    external = reaction;
+    hands->prepare(schedule);
+    enter_from(time);
+  }
+
   Divergence divergence_now() {
     Divergence d{time, 0, sample.kinetic + sample.stored, book.work() + book.turnover(), limit};
-    double fastest = -1.0;
-    for (int node = 0; node < scene.mesh.node_count(); ++node) {
-      const double speed = std::hypot(v()[2 * node], v()[2 * node + 1]);
-      if (!std::isfinite(speed)) {
-        d.node = node;
-        break;
-      }
-      if (speed > fastest) {
-        fastest = speed;
-        d.node = node;
-      }
-    }
+    d.node = fastest_node(v());
     return d;
   }
 
@@ -374,6 +374,7 @@ struct Simulation::Impl {
 
   Scene scene;
   Model model;
+  SimulationOptions asked;
   Schedule schedule;
   Spectrum spectrum;
   std::unique_ptr<Body> body;
@@ -386,15 +387,16 @@ struct Simulation::Impl {
   double largest_step = 0.0;
   double time = 0.0;
   std::size_t index = 0;
-  Interval interval;
+  Interval interval, next;
+  bool entered = false;
+  Hands* hands = nullptr;
   std::vector<double> y, zeros;
   bool y_current = true;
-  Vector base, jump, dv, momentum;
-  std::vector<int> owner;  // by degree of freedom: who holds it, -1: nobody
+  Holds holds;
   std::vector<double> allowed_violation;
   EnergySample sample;
   double sample_time = 0.0;
-  bool sampled = false;
+  bool sampled = false, state_sampled = false;  // all of it; what depends on the state alone
   Vector reaction, external;
   bool reaction_known = false;
   std::optional<Divergence> diverged;
@@ -432,23 +434,21 @@ const Counters& Simulation::counters() const {
 }
 
 std::int64_t Simulation::planned_steps() const {
-  const TimeSettings& settings = impl_->scene.time;
-  std::int64_t steps = 0;
-  double t = 0.0;
-  std::size_t interval = 0;
-  const auto run_to = [&](double target) {
-    while (t < target && !same_time(t, target)) {
-      const double event = impl_->schedule.end(interval);
-      const bool passes = event <= target || same_time(event, target);
-      const double end = passes ? event : target;
-      steps += steps_in(end - t, impl_->bound);
-      t = end;
-      if (passes) ++interval;
-    }
-  };
-  for (std::int64_t k = 0; k < output_count(settings); ++k) run_to(output_time(settings, k));
-  run_to(settings.duration);
-  return steps;
+  return impl_->schedule.planned_steps(impl_->bound);
+}
+
+void Simulation::attach(Hands& hands) {
+  impl_->attach(hands);
+}
+
+void Simulation::hands_changed() {
+  const FlushDenormals flush;
+  impl_->enter_from(impl_->time);
+}
+
+std::span<const double> Simulation::reaction_at(std::span<const HeldDof> held) {
+  impl_->know_reaction_at(held);
+  return {impl_->reaction.data(), impl_->model.layout.part};
 }
 
 std::span<const double> Simulation::u() const {

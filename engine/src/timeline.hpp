@@ -4,6 +4,7 @@
 // constraints stays: steps end on these times, so that none straddles a jump.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "rheo/scene.hpp"
@@ -15,6 +16,9 @@ std::vector<double> event_times(const Scene& scene);
 
 // Whether two times are the same but for rounding.
 bool same_time(double a, double b);
+
+// Steps of at most `bound` that divide a stretch of time.
+std::int64_t steps_in(double length, double bound);
 
 inline bool is_active(const Window& window, double t) {
   return window.from <= t && t < window.until;

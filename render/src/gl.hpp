@@ -24,6 +24,7 @@ namespace render {
   X(BLENDFUNCSEPARATE, BlendFuncSeparate)             \
   X(BUFFERDATA, BufferData)                           \
   X(BUFFERSUBDATA, BufferSubData)                     \
+  X(BLITFRAMEBUFFER, BlitFramebuffer)                 \
   X(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus)   \
   X(CLEAR, Clear)                                     \
   X(CLEARCOLOR, ClearColor)                           \

@@ -100,10 +100,10 @@ void MeshPass::make_texture(NodeTexture& nodes) const {
 }
 
 void MeshPass::set_nodes(std::span<const double> positions, std::span<const double> scalar) {
-  upload(nodes_, positions, scalar);
+  if (upload(nodes_, positions, scalar)) ++uploads_;
 }
 
-void MeshPass::upload(NodeTexture& nodes, std::span<const double> positions, std::span<const double> scalar) {
+bool MeshPass::upload(NodeTexture& nodes, std::span<const double> positions, std::span<const double> scalar) {
   assert(positions.size() == 2 * node_count_);
   assert(scalar.empty() || scalar.size() == node_count_);
   bool all_finite = true;
@@ -118,7 +118,7 @@ void MeshPass::upload(NodeTexture& nodes, std::span<const double> positions, std
     to[3] = finite ? 1.0f : 0.0f;
     all_finite = all_finite && finite;
   }
-  if (nodes.data == staging_) return;
+  if (nodes.data == staging_) return false;
   std::swap(nodes.data, staging_);
   nodes.all_finite = all_finite;
   gl_.ActiveTexture(GL_TEXTURE0);
@@ -126,6 +126,7 @@ void MeshPass::upload(NodeTexture& nodes, std::span<const double> positions, std
   gl_.PixelStorei(GL_UNPACK_ALIGNMENT, 4);
   gl_.TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, row, static_cast<GLsizei>(row_count(node_count_)), GL_RGBA,
                     GL_FLOAT, nodes.data.data());
+  return true;
 }
 
 void MeshPass::upload_colors() const {

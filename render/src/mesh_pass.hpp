@@ -31,6 +31,7 @@ class MeshPass {
   MeshPass(const Gl& gl, const MeshLayout& layout, const BoundaryChains& boundary, int width, int height);
 
   void set_nodes(std::span<const double> positions, std::span<const double> scalar);
+  std::int64_t uploads() const { return uploads_; }  // by set_nodes
   void fill(const Camera& camera, float line_width) const;
   void outline(const Camera& camera, const LineStyle& style) const { lines(camera, style, nodes_); }
   void rest_outline(const Camera& camera, const LineStyle& style) const { lines(camera, style, rest_); }
@@ -44,7 +45,8 @@ class MeshPass {
   };
 
   void make_texture(NodeTexture& nodes) const;
-  void upload(NodeTexture& nodes, std::span<const double> positions, std::span<const double> scalar);
+  // Whether anything had to be uploaded.
+  bool upload(NodeTexture& nodes, std::span<const double> positions, std::span<const double> scalar);
   void upload_colors() const;
   void upload_triangles(std::span<const int> triangles, std::span<const double> rest);
   void set_fill(const GlProgram& program) const;
@@ -76,6 +78,7 @@ class MeshPass {
   GLsizei edge_vertex_count_ = 0;
   double largest_height_ = 0;  // of all triangles at rest, each one's smallest [m]
   float colored_ = 0;
+  std::int64_t uploads_ = 0;
 };
 
 }  // namespace render

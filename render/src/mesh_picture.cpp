@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "annotations.hpp"
@@ -39,6 +41,24 @@ struct Body {
 };
 
 }  // namespace
+
+// A frame with its own memory, to tell whether the next one is another.
+struct Shown {
+  std::vector<double> positions, scalar;
+  std::vector<int> held;
+  std::vector<TractionArrow> arrows;
+
+  bool looks_like(const MeshFrame& frame) const {
+    return std::ranges::equal(positions, frame.positions) && std::ranges::equal(scalar, frame.scalar) &&
+           std::ranges::equal(held, frame.held) && std::ranges::equal(arrows, frame.arrows);
+  }
+  void take(const MeshFrame& frame) {
+    positions.assign(frame.positions.begin(), frame.positions.end());
+    scalar.assign(frame.scalar.begin(), frame.scalar.end());
+    held.assign(frame.held.begin(), frame.held.end());
+    arrows.assign(frame.arrows.begin(), frame.arrows.end());
+  }
+};
 
 struct MeshPicture::Impl {
   Impl(Context& c, const MeshLayout& layout)
@@ -108,13 +128,25 @@ struct MeshPicture::Impl {
     arrows.draw(canvas, camera, frame, body.arrow_scale, longest_arrow, value_area);
   }
 
-  void draw_heading(const Parts& p, const std::string& right) {
+  // As much of the title as leaves `taken` pixels at its right.
+  std::string title_beside(const Parts& p, float taken) const {
+    return canvas.fit(TextSize::title, body.title, p.title.width() - taken);
+  }
+
+  void draw_heading(const Parts& p, const std::string& title) {
     const float y = (p.title.y0 + p.title.y1) / 2;
-    const float taken = right.empty() ? 0 : canvas.text_width(TextSize::normal, right) + p.title.y0;
-    if (!right.empty()) canvas.text({p.title.x1, y}, Align::right, TextSize::normal, theme::ink, right);
-    const std::string title = canvas.fit(TextSize::title, body.title, p.title.width() - taken);
     canvas.text({p.title.x0, y}, Align::left, TextSize::title, theme::ink, title);
     if (!body.bar.name.empty()) draw_color_bar(canvas, body.bar, p.bar);
+  }
+
+  // All of a frame but its time.
+  void draw_still(const MeshFrame& frame, const Parts& p, const std::string& title) {
+    begin();
+    // The arrows of other frames are not known: room for them on every side.
+    const float arrow_room = body.arrow_scale > 0 ? arrow_length() : 0.0f;
+    draw_body(framing(line_room() + arrow_room).fit(p.body), frame, arrow_length(), p.body);
+    draw_heading(p, title);
+    canvas.flush();
   }
 
   Context& context;
@@ -125,6 +157,11 @@ struct MeshPicture::Impl {
   MeshPass pass;
   TractionArrows arrows;
   std::vector<char> mark;
+  std::optional<Shown> last;    // drawn by draw()
+  std::string last_title;       // as much of it as its time left room for
+  std::optional<Target> still;  // all of it but its time, from its first repetition on
+  bool still_current = false;
+  PictureCounters counters;
 };
 
 MeshPicture::MeshPicture(Context& context, const MeshLayout& layout)
@@ -138,12 +175,32 @@ MeshPicture::MeshPicture(MeshPicture&&) noexcept = default;
 
 void MeshPicture::draw(const MeshFrame& frame, Image& out) {
   Impl& m = *impl_;
-  m.begin();
+  m.context.make_current();
   const Impl::Parts p = m.parts();
-  // The arrows of other frames are not known: room for them on every side.
-  const float arrows = m.body.arrow_scale > 0 ? m.arrow_length() : 0.0f;
-  m.draw_body(m.framing(m.line_room() + arrows).fit(p.body), frame, m.arrow_length(), p.body);
-  m.draw_heading(p, time_text(frame.time));
+  const std::string time = time_text(frame.time);
+  std::string title = m.title_beside(p, m.canvas.text_width(TextSize::normal, time) + p.title.y0);
+  const bool repeated = m.last && m.last_title == title && m.last->looks_like(frame);
+  if (repeated && m.still_current) {
+    m.target.copy(*m.still);
+    m.target.bind();
+    ++m.counters.frames_repeated;
+  } else {
+    m.draw_still(frame, p, title);
+    ++m.counters.frames_drawn;
+    // Kept when it has come twice: frames that all differ pay nothing.
+    if (repeated) {
+      if (!m.still) m.still.emplace(m.gl, m.canvas.width(), m.canvas.height());
+      m.still->copy(m.target);
+      m.target.bind();
+    } else {
+      if (!m.last) m.last.emplace();
+      m.last->take(frame);
+      m.last_title = std::move(title);
+    }
+    m.still_current = repeated;
+  }
+  m.canvas.text({p.title.x1, (p.title.y0 + p.title.y1) / 2}, Align::right, TextSize::normal, theme::ink,
+                time);
   m.canvas.flush();
   m.target.read(out);
 }
@@ -181,11 +238,17 @@ Image MeshPicture::sheet(std::span<const MeshFrame> frames) {
     const Point at{std::min(camera.pixel(m.body.bounds[0], 0).x, rightmost), top - label + 0.5f * text};
     m.canvas.text(at, Align::left, TextSize::small, theme::ink, time);
   }
-  m.draw_heading(p, {});
+  m.draw_heading(p, m.title_beside(p, 0.0f));
   m.canvas.flush();
   Image out;
   m.target.read(out);
   return out;
+}
+
+PictureCounters MeshPicture::counters() const {
+  PictureCounters counters = impl_->counters;
+  counters.mesh_uploads = impl_->pass.uploads();
+  return counters;
 }
 
 }  // namespace render

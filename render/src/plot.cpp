@@ -39,13 +39,16 @@ struct Extent {
   }
 };
 
-Axis fit_axis(Scale scale, Extent e, bool is_y) {
+// Whether a curve may touch the ends of its axis.
+enum class Ends { tight, loose };
+
+Axis fit_axis(Scale scale, Extent e, Ends ends) {
   Axis axis;
   axis.scale = scale;
   if (scale == Scale::log) {
     if (e.empty()) e = {1, 10};
     if (e.high > e.low) {
-      const double pad = is_y ? std::pow(e.high / e.low, 0.04) : 1;
+      const double pad = ends == Ends::loose ? std::pow(e.high / e.low, 0.04) : 1;
       axis.low = std::max(e.low / pad, std::numeric_limits<double>::min());
       axis.high = std::min(e.high * pad, std::numeric_limits<double>::max());
     } else {
@@ -63,7 +66,7 @@ Axis fit_axis(Scale scale, Extent e, bool is_y) {
     const double half = size > 0 ? size / 2 : 1;
     return {scale, e.low - half, e.high + half};
   }
-  if (!is_y) return {scale, e.low, e.high};
+  if (ends == Ends::tight) return {scale, e.low, e.high};
   // Curves that come near zero are shown from zero.
   if (e.low >= 0 && e.low < 0.35 * e.high) e.low = 0;
   if (e.high <= 0 && e.high > 0.35 * e.low) e.high = 0;
@@ -166,8 +169,11 @@ class PlotPainter {
         ey.add(s.y[i]);
       }
     }
-    axes_.x = fit_axis(plot_.x_scale, ex, false);
-    axes_.y = fit_axis(plot_.y_scale, ey, true);
+    // A curve over time fills the width; points on a logarithmic axis keep clear of its ends.
+    const bool points = plot_.x_scale == Scale::log &&
+                        std::ranges::any_of(plot_.series, [](const Series& s) { return s.markers; });
+    axes_.x = fit_axis(plot_.x_scale, ex, points ? Ends::loose : Ends::tight);
+    axes_.y = fit_axis(plot_.y_scale, ey, Ends::loose);
 
     const auto w = static_cast<float>(canvas_.width()), h = static_cast<float>(canvas_.height());
     const float normal = canvas_.text_size(TextSize::normal);

@@ -22,6 +22,12 @@ void Target::bind() const {
   gl_.Viewport(0, 0, width_, height_);
 }
 
+void Target::copy(const Target& from) const {
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, from.framebuffer_.id());
+  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_.id());
+  gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
 void Target::read(Image& out) const {
   out.width = width_;
   out.height = height_;

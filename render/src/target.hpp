@@ -12,8 +12,9 @@ namespace render {
 class Target {
  public:
   Target(const Gl& gl, int width, int height);
-  void bind() const;            // draws go here from now on, over the whole picture
-  void read(Image& out) const;  // waits for the drawing; `out` is resized where needed
+  void bind() const;                    // draws go here from now on, over the whole picture
+  void copy(const Target& from) const;  // all of its pixels; both have one size
+  void read(Image& out) const;          // waits for the drawing; `out` is resized where needed
 
  private:
   const Gl& gl_;

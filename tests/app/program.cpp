@@ -49,7 +49,8 @@ Finished ProgramTest::rheo(const std::vector<std::string>& arguments,
     if (chdir(folder_.c_str()) != 0 || dup2(out_file, 1) < 0 || dup2(err_file, 2) < 0) _exit(126);
     // Drivers leak at exit, inside libraries that are gone by then; ours is covered by the commands without
     // them.
-    if (!arguments.empty() && arguments[0] == "render") setenv("ASAN_OPTIONS", "detect_leaks=0", 1);
+    if (!arguments.empty() && (arguments[0] == "render" || arguments[0] == "bench"))
+      setenv("ASAN_OPTIONS", "detect_leaks=0", 1);
     for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
     execv(RHEO_PROGRAM, argv.data());
     _exit(127);

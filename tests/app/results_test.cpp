@@ -188,16 +188,18 @@ TEST_F(Results, DoNotDependOnTheKernel) {
   const std::string lumped = small_beam() + "\n";
   ASSERT_EQ(lumped.find("consistent"), std::string::npos);
   run("csr", {"--kernel", "csr"});
-  run("edge", {"--kernel", "edge"});
-  const auto json = nlohmann::json::parse(read_text(folder() / "edge/run.json"));
-  EXPECT_EQ(json.at("settings").at("kernel"), "edge");
   auto csr = read_table(folder() / "csr/history.csv");
-  auto edge = read_table(folder() / "edge/history.csv");
-  for (const auto& [name, values] : csr) {
-    double largest = 0.0;
-    for (double x : values) largest = std::max(largest, std::abs(x));
-    for (std::size_t i = 0; i < values.size(); ++i)
-      EXPECT_NEAR(values[i], edge[name][i], 1e-9 * largest) << name;
+  for (const std::string kernel : {"edge", "element"}) {
+    run(kernel, {"--kernel", kernel});
+    const auto json = nlohmann::json::parse(read_text(folder() / kernel / "run.json"));
+    EXPECT_EQ(json.at("settings").at("kernel"), kernel);
+    auto other = read_table(folder() / kernel / "history.csv");
+    for (const auto& [name, values] : csr) {
+      double largest = 0.0;
+      for (double x : values) largest = std::max(largest, std::abs(x));
+      for (std::size_t i = 0; i < values.size(); ++i)
+        EXPECT_NEAR(values[i], other[name][i], 1e-9 * largest) << kernel << " " << name;
+    }
   }
 }
 

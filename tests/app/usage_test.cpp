@@ -49,8 +49,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Wrong{"NoCommand", {}, {"no command", "run", "render", "check"}},
         Wrong{"UnknownCommand", {"rnu", "beam.toml"}, {"'rnu'", "did you mean run"}},
-        Wrong{"View", {"view", "beam.toml"}, {"no command 'view'", RHEO_VERSION, "run, render and check"}},
-        Wrong{"Bench", {"bench", "beam.toml"}, {"no command 'bench'", RHEO_VERSION}},
+        Wrong{"View",
+              {"view", "beam.toml"},
+              {"no command 'view'", RHEO_VERSION, "run, render, check and bench"}},
         Wrong{"NoScene", {"run"}, {"SCENE", "rheo run --help"}}, Wrong{"EmptyScene", {"run", ""}, {"SCENE"}},
         Wrong{"TwoScenes", {"run", "beam.toml", "other.toml"}, {"'other.toml'", "one scene"}},
         Wrong{"UnknownOption", {"run", "beam.toml", "--frce"}, {"'--frce'", "--force"}},
@@ -75,10 +76,15 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Wrong{
             "Integrator", {"run", "beam.toml", "--integrator", "rk5"}, {"--integrator 'rk5'", "rk4, euler"}},
-        Wrong{"Kernel", {"run", "beam.toml", "--kernel", "fast"}, {"--kernel 'fast'", "auto, csr, edge"}},
+        Wrong{"Kernel",
+              {"run", "beam.toml", "--kernel", "fast"},
+              {"--kernel 'fast'", "auto, csr, edge, element"}},
         Wrong{"KernelOfImplicit",
               {"run", "beam.toml", "--integrator", "implicit", "--kernel", "edge"},
               {"kernel edge", "implicit", "auto or csr"}},
+        Wrong{"ElementKernelOfImplicit",
+              {"run", "beam.toml", "--integrator", "implicit", "--kernel", "element"},
+              {"kernel element", "implicit", "auto or csr"}},
         Wrong{"Tolerance",
               {"run", "beam.toml", "--integrator", "exponential", "--tolerance", "1e-16"},
               {"--tolerance '1e-16'", "1e-13 to 0.1"}},
@@ -123,10 +129,9 @@ TEST_F(Usage, HelpNamesCommandsExitCodesAndExamples) {
   const Finished finished = rheo({"--help"});
   EXPECT_EQ(finished.exit_code, 0);
   EXPECT_EQ(finished.err, "");
-  for (const char* part : {"run", "render", "check", "Exit codes:", "Examples:"})
+  for (const char* part : {"run", "render", "check", "bench", "Exit codes:", "Examples:"})
     EXPECT_THAT(finished.out, HasSubstr(part));
   EXPECT_THAT(finished.out, Not(HasSubstr("view")));
-  EXPECT_THAT(finished.out, Not(HasSubstr("bench")));
 }
 
 TEST_F(Usage, HelpOfACommandNamesAllItsOptions) {
@@ -138,6 +143,12 @@ TEST_F(Usage, HelpOfACommandNamesAllItsOptions) {
     EXPECT_THAT(render.out, HasSubstr(option));
   const Finished run = rheo({"run", "--help"});
   EXPECT_THAT(run.out, Not(HasSubstr("--backend")));
+  const Finished bench = rheo({"bench", "--help"});
+  for (const char* option :
+       {"--budget", "--csv", "--integrator", "--kernel", "--threads", "-o,--output", "--force"})
+    EXPECT_THAT(bench.out, HasSubstr(option));
+  EXPECT_THAT(bench.out, Not(HasSubstr("  --step")));
+  for (const std::string& line : lines_of(bench.out)) EXPECT_LE(line.size(), 120u) << line;
   // A line that wraps on a common terminal of 120 columns is hard to read.
   for (const std::string& line : lines_of(render.out)) EXPECT_LE(line.size(), 120u) << line;
 }
@@ -165,6 +176,14 @@ TEST_F(Usage, AMeshBeyondTheMemoryIsRefusedBeforeItIsBuilt) {
   EXPECT_EQ(read_text(folder() / "out"), "");
 }
 #endif
+
+TEST_F(Usage, AKernelThatTheSceneDoesNotAllowIsRefused) {
+  write("consistent.toml", small_beam_with("density = 0.2", "density = 0.2\nmass = \"consistent\""));
+  for (const std::string kernel : {"edge", "element"}) {
+    expect_failure(rheo({"run", "consistent.toml", "--kernel", kernel}), 2,
+                   {"kernel " + kernel, "mass = \"lumped\"", "use auto or csr"});
+  }
+}
 
 TEST_F(Usage, ALineBreakInAPathDoesNotBreakTheLine) {
   expect_failure(rheo({"run", "no\nsuch\nfile.toml"}), 4, {"no such file.toml"});

@@ -1,4 +1,5 @@
-// The frames of the picture benchmarks: a beam that is pulled, another position in every frame.
+// The frames of the picture benchmarks: a beam that is pulled, another position in every frame, or one that
+// stands still.
 #pragma once
 
 #include <cmath>
@@ -36,6 +37,11 @@ class Frames {
       body_.positions[i] = rest_.positions[i] + part * (full_.positions[i] - rest_.positions[i]);
     }
     for (std::size_t i = 0; i < body_.scalar.size(); ++i) body_.scalar[i] = part * full_.scalar[i];
+    draw_again(out);
+  }
+
+  // The shape that was drawn last, at the time that comes next.
+  void draw_again(render::Image& out) {
     picture_->draw(body_.frame(number_ / 60.0), out);
     ++number_;
   }

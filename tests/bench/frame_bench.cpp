@@ -13,6 +13,16 @@ void DrawAndReadBack(benchmark::State& state) {
   for (auto _ : state) frames.draw(image);
   state.SetItemsProcessed(state.iterations());
 }
+// The same of a body that stands still: all but the time is taken from the frame before.
+void DrawAndReadBackStill(benchmark::State& state) {
+  const auto height = static_cast<int>(state.range(1));
+  bench::Frames frames(static_cast<int>(state.range(0)), height * 16 / 9, height);
+  render::Image image;
+  frames.draw_again(image);
+  for (auto _ : state) frames.draw_again(image);
+  state.SetItemsProcessed(state.iterations());
+}
+
 BENCHMARK(DrawAndReadBack)
     ->ArgNames({"triangles", "height"})
     ->Args({12, 720})
@@ -23,6 +33,14 @@ BENCHMARK(DrawAndReadBack)
     ->Args({1000, 240})
     ->Args({1000, 1080})
     ->Args({1000, 2160})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(DrawAndReadBackStill)
+    ->ArgNames({"triangles", "height"})
+    ->Args({12, 720})
+    ->Args({1000, 720})
+    ->Args({10000, 720})
+    ->Args({100000, 720})
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 

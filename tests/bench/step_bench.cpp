@@ -16,80 +16,20 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <memory>
-#include <random>
 
 #include "assembled_body.hpp"
+#include "bench/step_case.hpp"
 #include "kernels/edge_body.hpp"
-#include "rheo/shapes.hpp"
-#include "schedule.hpp"
+#include "kernels/element_body.hpp"
 
 namespace {
 
+using bench::Case;
+using bench::case_of;
 using rheo::Vector;
 
 constexpr int hashed_steps = 8;  // before the timed ones, from the same state
-
-// A square of about `triangles` triangles, its inner nodes moved at random, fixed at the left and pulled at
-// the right. The step is far below the stable limit: many steps from a random state
-// stay of one size.
-struct Case {
-  explicit Case(int triangles) {
-    const int n = std::max(2, static_cast<int>(std::lround(std::sqrt(triangles / 2.0))) + 1);
-    scene.mesh = rheo::rectangle({1, 1}, n, n, rheo::Diagonal::alternating);
-    std::mt19937 random(1);
-    std::uniform_real_distribution<double> unit(-0.25 / n, 0.25 / n);
-    for (int row = 1; row + 1 < n; ++row) {
-      for (int column = 1; column + 1 < n; ++column) {
-        scene.mesh.points[row * n + column].x += unit(random);
-        scene.mesh.points[row * n + column].y += unit(random);
-      }
-    }
-    rheo::prepare(scene.mesh);
-    scene.material = {7, 5, 4, 2, 0.2, rheo::Mass::lumped};
-    scene.fixes.push_back({rheo::nodes_of(scene.mesh.edge_groups.at("left")), rheo::Axis::both, {}, ""});
-    scene.tractions.push_back({scene.mesh.edge_groups.at("right"), {{0, {1, 0}}}, {}, ""});
-    scene.time.duration = 1.0;
-    model = std::make_unique<rheo::Model>(scene.mesh, scene.material);
-    solver = std::make_shared<rheo::ConstraintSolver>(*model, held(), std::vector<rheo::Column>{});
-    interval.force.setZero(static_cast<Eigen::Index>(model->layout.part));
-    for (int node : rheo::nodes_of(scene.mesh.edge_groups.at("right"))) interval.force[2 * node] = 1.0 / n;
-    interval.eliminated = interval.held = held();
-    interval.course.resize(1);
-    interval.solver = solver;
-    base.setZero(static_cast<Eigen::Index>(model->layout.part));
-    step = 1e-3 / model->element_omega;
-    y.resize(model->layout.size());
-    std::uniform_real_distribution<double> any(-1, 1);
-    for (double& x : y) x = any(random);
-    for (const rheo::HeldDof& h : held()) y[model->layout.v() + h.dof] = 0.0;
-  }
-
-  std::vector<rheo::HeldDof> held() const {
-    std::vector<rheo::HeldDof> dofs;
-    for (int node : scene.fixes[0].nodes) {
-      dofs.push_back({2 * node, 0});
-      dofs.push_back({2 * node + 1, 0});
-    }
-    return dofs;
-  }
-
-  rheo::Scene scene;
-  std::unique_ptr<rheo::Model> model;
-  std::shared_ptr<const rheo::ConstraintSolver> solver;
-  rheo::Interval interval;
-  Vector base;
-  std::vector<double> y;
-  double step = 0.0;
-};
-
-const Case& case_of(int triangles) {
-  static std::map<int, std::unique_ptr<Case>> cases;
-  auto& one = cases[triangles];
-  if (!one) one = std::make_unique<Case>(triangles);
-  return *one;
-}
 
 std::uint32_t hash_of(std::span<const double> y) {  // FNV-1a over the bits
   std::uint32_t hash = 2166136261u;
@@ -177,10 +117,10 @@ void step_edge(benchmark::State& state) {
   const rheo::EdgeForm& form = force.form();
   const auto edges = static_cast<double>(form.offset.size());
   const auto nodes = static_cast<double>(form.nodes);
-  // A sweep reads an edge's 3 numbers and index, and a node's x, base and inverse mass, and writes out; u
+  // A sweep reads an edge's 5 numbers and index, and a node's x, base and inverse mass, and writes out; u
   // once a step.
-  run_body(state, c, body, 4 * (28 * edges + nodes * (48 + 48 + 16 + 48)) + 32 * nodes,
-           4 * (28 * edges + 36 * nodes));
+  run_body(state, c, body, 4 * (44 * edges + nodes * (48 + 48 + 16 + 48)) + 32 * nodes,
+           4 * (20 * edges + 36 * nodes));
 }
 
 template <int threads>
@@ -215,5 +155,42 @@ BENCHMARK(step_edge_best<2>)->Name("step2/edge")->Apply(sizes);
 BENCHMARK(step_edge<rheo::SimdLevel::baseline>)->Name("step/edge_baseline")->Apply(sizes);
 BENCHMARK(step_edge<rheo::SimdLevel::avx2>)->Name("step/edge_avx2")->Apply(sizes);
 BENCHMARK(step_edge<rheo::SimdLevel::avx512>)->Name("step/edge_avx512")->Apply(sizes);
+
+// step/element: the element kernel on one material.
+template <rheo::SimdLevel level, int threads = 1>
+void step_element(benchmark::State& state) {
+  if (!rheo::has_simd_level(level)) {
+    state.SkipWithError("this processor has not these instructions");
+    return;
+  }
+  const Case& c = case_of(static_cast<int>(state.range(0)));
+  const rheo::ElementForce force(
+      std::make_shared<rheo::ElementForm>(c.scene.mesh, rheo::Regions{{c.scene.material}, {}}), level);
+  rheo::ElementBody body(*c.model, force, threads);
+  const auto triangles = static_cast<double>(force.form().offset.size());
+  const auto nodes = static_cast<double>(force.form().nodes);
+  // A sweep reads a triangle's 4 numbers and 3 indices, and a node's x, base and inverse mass, and writes out
+  // (forces stay in cache); u once a step.
+  run_body(state, c, body, 4 * (44 * triangles + nodes * (48 + 48 + 16 + 48)) + 32 * nodes,
+           4 * (61 * triangles + 24 * nodes));
+}
+
+template <int threads>
+void step_element_best(benchmark::State& state) {
+  switch (rheo::best_simd_level()) {
+    case rheo::SimdLevel::avx512:
+      return step_element<rheo::SimdLevel::avx512, threads>(state);
+    case rheo::SimdLevel::avx2:
+      return step_element<rheo::SimdLevel::avx2, threads>(state);
+    case rheo::SimdLevel::baseline:
+      return step_element<rheo::SimdLevel::baseline, threads>(state);
+  }
+}
+
+BENCHMARK(step_element_best<1>)->Name("step/element")->Apply(sizes);
+BENCHMARK(step_element_best<2>)->Name("step2/element")->Apply(sizes);
+BENCHMARK(step_element<rheo::SimdLevel::baseline>)->Name("step/element_baseline")->Apply(sizes);
+BENCHMARK(step_element<rheo::SimdLevel::avx2>)->Name("step/element_avx2")->Apply(sizes);
+BENCHMARK(step_element<rheo::SimdLevel::avx512>)->Name("step/element_avx512")->Apply(sizes);
 
 }  // namespace

@@ -52,6 +52,20 @@ double slope(const std::vector<double>& errors) {
   return (n * sxy - sx * sy) / (n * sxx - sx * sx);
 }
 
+// The element kernel's states; the others' by simulate().
+std::vector<ExactState> simulate_by_elements(const Scene& scene, const std::vector<double>& times) {
+  Simulation run(scene, {.kernel = Kernel::element});
+  const auto copy = [](std::span<const double> x) {
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size())));
+  };
+  std::vector<ExactState> states;
+  for (const double t : times) {
+    EXPECT_FALSE(run.advance(t));
+    states.push_back({t, copy(run.u()), copy(run.v()), copy(run.w_lambda()), copy(run.w_mu())});
+  }
+  return states;
+}
+
 double measured_order(const Scene& scene, IntegratorKind kind, double first_step, int halvings = 5) {
   const std::vector<double> times{0.25, 0.5, 0.75, 1.0};
   const auto exact = ExactSolution(scene).at(times);
@@ -76,6 +90,20 @@ TEST_P(Order, Rk4IsFour) {
 
 TEST_P(Order, EulerIsOne) {
   EXPECT_NEAR(measured_order(GetParam().scene(), IntegratorKind::euler, 2e-4), 1.0, 0.1);
+}
+
+TEST(ElementKernel, HasRk4sOrderFour) {
+  const std::vector<double> times{0.25, 0.5, 0.75, 1.0};
+  for (const Scene& scene : {ramped(Mass::lumped), moved(Mass::lumped, Profile::smooth)}) {
+    const auto exact = ExactSolution(scene).at(times);
+    std::vector<double> errors;
+    for (int halving = 0; halving <= 5; ++halving) {
+      Scene s = scene;
+      s.time.step = 4e-3 / std::exp2(halving);
+      errors.push_back(run_error(exact, simulate_by_elements(s, times)));
+    }
+    EXPECT_NEAR(slope(errors), 4.0, 0.1);
+  }
 }
 
 // One halving only: eight orders leave little room between steps that are too long for the leading term to

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "render/context.hpp"
@@ -140,6 +141,31 @@ TEST_F(Plots, EventsAreVerticalLinesInsideOfTheAxes) {
   const Box mark = support::find_difference(without, draw(p), 30);
   EXPECT_LE(mark.width(), 3);
   EXPECT_GT(mark.height(), 0.7 * height);
+}
+
+// Marks of a log-log picture lie where the logarithms of their values say, clear of the ends of both axes.
+TEST_F(Plots, MarkersOnLogarithmicAxesLieAtTheirDecades) {
+  const std::vector<double> x{1e-8, 1e-6, 1e-2}, y{1e1, 1e-1, 1e-2};
+  render::Plot p;
+  p.x_scale = p.y_scale = render::Scale::log;
+  for (std::size_t k = 0; k < x.size(); ++k) {  // one point a series: no lines between
+    p.series.push_back({"", std::span(x).subspan(k, 1), std::span(y).subspan(k, 1), true});
+  }
+  const Image image = draw(p);
+  const auto green = [](const Pixel& q) { return q[1] > q[0] + 90 && q[1] > q[2] + 20; };
+  const Box first =
+      support::find(image, [](int, int, const Pixel& q) { return blue(q) && q[2] > q[1] + 30; });
+  const Box second = support::find(image, [](int, int, const Pixel& q) { return vermilion(q); });
+  const Box third = support::find(image, [&](int, int, const Pixel& q) { return green(q); });
+  const auto middle_x = [](const Box& b) { return (b.x0 + b.x1) / 2.0; };
+  const auto middle_y = [](const Box& b) { return (b.y0 + b.y1) / 2.0; };
+  // Two decades of six to the right, two of three downwards.
+  EXPECT_NEAR((middle_x(second) - middle_x(first)) / (middle_x(third) - middle_x(first)), 2.0 / 6, 0.01);
+  EXPECT_NEAR((middle_y(second) - middle_y(first)) / (middle_y(third) - middle_y(first)), 2.0 / 3, 0.015);
+  for (const Box& mark : {first, second, third}) {
+    EXPECT_NEAR(mark.width(), mark.height(), 1) << "a whole disk";
+    EXPECT_GE(mark.width(), 5);
+  }
 }
 
 TEST_F(Plots, MarkersShowThePoints) {

@@ -10,98 +10,11 @@
 #include "kernels/edge_body.hpp"
 #include "schedule.hpp"
 #include "support/exact.hpp"
+#include "support/kernel_cases.hpp"
 #include "support/scenes.hpp"
 
 namespace rheo::test {
 namespace {
-
-// An irregular mesh with a hole and, where two cut-out cells touch, a node at which the boundary meets
-// itself.
-Mesh random_mesh(std::mt19937& random) {
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  const int nx = 7 + static_cast<int>(2 * (1 + unit(random)));
-  const int ny = 6 + static_cast<int>(2 * (1 + unit(random)));
-  const double size = std::pow(10.0, 3 * unit(random));
-  Mesh mesh = rectangle({size, 0.7 * size}, nx, ny, Diagonal::alternating);
-  for (Vec2& p : mesh.points) {
-    p.x += 0.25 * size / nx * unit(random);
-    p.y += 0.25 * 0.7 * size / ny * unit(random);
-  }
-  std::vector<Triangle> kept;
-  for (const Triangle& t : mesh.triangles) {
-    const auto cell = [&](int column, int row) {
-      int inside = 0;
-      for (int node : t) {
-        const int c = node % nx, r = node / nx;
-        inside += c >= column && c <= column + 1 && r >= row && r <= row + 1;
-      }
-      return inside == 3;
-    };
-    if (!cell(2, 2) && !cell(3, 3)) kept.push_back(t);
-  }
-  mesh.triangles = kept;
-  mesh.edge_groups.clear();
-  mesh.thickness = std::pow(10.0, unit(random));
-  prepare(mesh);
-  return mesh;
-}
-
-Scene random_scene(unsigned seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  const auto decades = [&](double n) { return std::pow(10.0, n * unit(random)); };
-  Scene scene;
-  scene.mesh = random_mesh(random);
-  Material& m = scene.material;
-  m = {decades(4), decades(4), decades(4), decades(4), decades(3), Mass::lumped};
-  if (seed % 5 == 1) m.lambda_ela = 0.0;
-  if (seed % 5 == 2) m.mu_ela = 0.0;
-  if (seed % 5 == 3) m.lambda_vis = forever;
-  scene.body_acceleration = {unit(random), unit(random)};
-  scene.fixes.push_back({{0, 1, 2}, Axis::both, {}, ""});
-  scene.fixes.push_back({{4}, Axis::y, {}, ""});
-  scene.moves.push_back(
-      {{6, 7}, Axis::x, {}, {{0, {0, 0}, {}}, {2, {unit(random), 0}, {}}}, Profile::smooth, ""});
-  scene.tractions.push_back(
-      {scene.mesh.edge_groups.at("boundary"), {{0, {unit(random), 1}}, {3, {0, unit(random)}}}, {}, ""});
-  scene.time.duration = 1.0;
-  return scene;
-}
-
-// One sweep and one energy sample of a body at a state and time.
-struct Outcome {
-  std::vector<double> swept;
-  EnergySample sample;
-  Vector reaction;
-};
-
-Outcome outcome(Body& body, const Interval& interval, const Vector& base, const std::vector<double>& y,
-                double t) {
-  body.enter(interval, base);
-  body.load(y);
-  body.impose_prescribed(t);
-  Outcome result;
-  result.sample = body.sample(t);
-  body.reaction(t, result.reaction);
-  std::vector<double> out(body.size());
-  const std::vector<double> zero(body.size(), 0.0);
-  body.fma(1.0, body.state(), zero, {t, {1.0, 0.3, 0.02, 0.001}}, out, Result::step);
-  std::copy(out.begin(), out.end(), body.state().begin());
-  result.swept.resize(y.size());
-  body.store(result.swept);
-  return result;
-}
-
-// Largest difference of a part over the part's largest entry.
-double difference(const std::vector<double>& a, const std::vector<double>& b, std::size_t begin,
-                  std::size_t count) {
-  double worst = 0.0, largest = 0.0;
-  for (std::size_t i = begin; i < begin + count; ++i) {
-    worst = std::max(worst, std::abs(a[i] - b[i]));
-    largest = std::max(largest, std::abs(a[i]));
-  }
-  return largest > 0.0 ? worst / largest : worst;
-}
 
 class Kernels : public testing::TestWithParam<SimdLevel> {};
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "rheo/deformation.hpp"
+#include "rheo/dense_flow.hpp"
 #include "rheo/error.hpp"
 #include "rheo/integrator.hpp"
+#include "rheo/live.hpp"
 #include "rheo/material.hpp"
 #include "rheo/mesh.hpp"
 #include "rheo/scene.hpp"

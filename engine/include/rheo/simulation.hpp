@@ -30,6 +30,9 @@
 
 namespace rheo {
 
+class Hands;
+struct HeldDof;
+
 struct Energies {
   double kinetic = 0.0;     // 1/2 v^T M v
   double stored = 0.0;      // 1/2 w_l^T J_l w_l / lambda_ela + 1/2 w_m^T J_m w_m / mu_ela
@@ -71,14 +74,16 @@ struct Counters {
 enum class Kernel {
   automatic,  // edge where the scene allows it, else csr
   csr,        // assembled matrices: every scene; the reference
-  edge        // by edges, vectorised: lumped mass, fixed and moved nodes eliminated
+  edge,       // by edges, vectorised: lumped mass, fixed and moved nodes eliminated
+  element     // by triangles, vectorised: where edge goes
 };
 
 struct SimulationOptions {
   bool allow_unstable = false;  // run a step beyond the stable limit instead of refusing it
   Kernel kernel = Kernel::automatic;
-  bool energies = true;  // without: dissipated and work are not known (NaN), and a step costs less
-  int threads = 0;       // of the edge kernel; 0: as many as pay. The result does not depend on it.
+  bool energies = true;        // without: dissipated and work are not known (NaN), and a step costs less
+  double stable_share = 0.25;  // of the stable limit: the largest step where the scene gives none
+  int threads = 0;             // of edge and element; 0: as many as pay. The result does not depend on it.
 };
 
 class Simulation {
@@ -102,7 +107,7 @@ class Simulation {
   // those at rest too.
   std::int64_t planned_steps() const;
 
-  // The kernel in use: "csr" or "edge".
+  // The kernel in use: "csr", "edge" or "element".
   std::string_view kernel() const;
   // How many threads its steps have.
   int threads() const;
@@ -140,6 +145,14 @@ class Simulation {
   const Counters& counters() const;
 
  private:
+  friend class Live;
+  // From now on hands act beside the scene; they must outlive this.
+  void attach(Hands& hands);
+  // At the current time they begin to do something else.
+  void hands_changed();
+  // reaction() where only these are looked at.
+  std::span<const double> reaction_at(std::span<const HeldDof> held);
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -28,7 +28,9 @@ class BlockTeam {
 
   int threads() const { return threads_; }
 
-  // visit(sweep, block) for all sweeps and blocks, in such an order; for a single sweep in any.
+  // visit(sweep, block) for all sweeps and blocks, in such an order; for a single sweep in any. Where
+  // threads() is 1, every sweep visits the blocks in rising order, and at each of them after the sweep before
+  // has visited the next.
   template <class Visit>
   void chain(std::size_t sweeps, const Visit& visit) {
     run(

@@ -17,15 +17,15 @@ std::size_t node_of(const Item& item) {
 
 // Where each block's items begin in a list sorted by node, and the list's end.
 template <class Item>
-std::vector<std::size_t> block_begins(const EdgeForm& form, const std::vector<Item>& items) {
-  std::vector<std::size_t> begins;
+void find_block_begins(const EdgeForm& form, const std::vector<Item>& items,
+                       std::vector<std::size_t>& begins) {
+  begins.clear();
   for (const EdgeForm::Block& block : form.blocks) {
     const auto at = std::lower_bound(items.begin(), items.end(), static_cast<std::size_t>(block.first_node),
                                      [](const Item& item, std::size_t node) { return node_of(item) < node; });
     begins.push_back(static_cast<std::size_t>(at - items.begin()));
   }
   begins.push_back(items.size());
-  return begins;
 }
 
 // Below some thousand nodes a thread's part of a step is too short to share.
@@ -46,15 +46,16 @@ EdgeBody::EdgeBody(const Model& model, const EdgeForce& force, int threads)
   const Material& m = model.material;
   elastic_ = form_.moduli && m.lambda_rate() == 0.0 && m.mu_rate() == 0.0;
   state_.assign((row() + (elastic_ ? 2 : 4)) * n, 0.0);
-  p_rate_.assign(row() * n, 0.0);
-  force_.setZero(static_cast<Eigen::Index>(2 * n));
-  force_rate_ = force_;
   mass_.resize(2 * n);
   for (std::size_t k = 0; k < n; ++k) mass_[2 * k] = mass_[2 * k + 1] = model.node_mass[form_.mesh_node[k]];
-  external_.resize(2 * n);
-  external_rate_.resize(2 * n);
 
-  corner_begin_ = block_begins(form_, form_.corners);
+  external_.assign(2 * n, 0.0);
+  external_rate_.assign(2 * n, 0.0);
+  inverse_mass_.resize(2 * n);
+  // As many as there can be: enter() allocates nothing, and what is not used takes no memory.
+  loads_.reserve(2 * n);
+  held_.reserve(2 * n);
+  find_block_begins(form_, form_.corners, corner_begin_);
   parts_ = {StatePart{row() * n, form_.moduli ? 1.0 : smallest_share(model)}, StatePart{2 * n, 1.0}};
   if (!elastic_) parts_.push_back({2 * n, 1.0});
   for (int axis = 0; axis < 2; ++axis) {
@@ -117,16 +118,18 @@ void EdgeBody::store(std::span<double> y) const {
 
 void EdgeBody::enter(const Interval& interval, const Vector& base) {
   Body::enter(interval, base);
-  inverse_mass_.resize(mass_.size());
+  imposed_ = false;
   std::transform(mass_.begin(), mass_.end(), inverse_mass_.begin(), [](double m) { return 1.0 / m; });
   held_.clear();
   for (const HeldDof& h : interval.eliminated) {
-    held_.push_back({slot(h.dof), h});
+    Polynomial change = interval.course[h.owner][h.dof % 2];
+    change.c[0] = 0.0;
+    held_.push_back({slot(h.dof), h, !change.is_zero()});
     inverse_mass_[held_.back().slot] = 0.0;
   }
   const auto by_slot = [](const auto& x, const auto& z) { return x.slot < z.slot; };
   std::sort(held_.begin(), held_.end(), by_slot);
-  held_begin_ = block_begins(form_, held_);
+  find_block_begins(form_, held_, held_begin_);
   loads_.clear();
   for (int dof = 0; dof < static_cast<int>(model_.layout.part); ++dof) {
     const double force = interval.force[dof];
@@ -136,15 +139,18 @@ void EdgeBody::enter(const Interval& interval, const Vector& base) {
     loads_.push_back({s, inverse_mass_[s] * force, inverse_mass_[s] * slope, force, slope});
   }
   std::sort(loads_.begin(), loads_.end(), by_slot);
-  load_begin_ = block_begins(form_, loads_);
+  find_block_begins(form_, loads_, load_begin_);
 }
 
 void EdgeBody::impose_prescribed(double t) {
-  if (!interval_->moving) return;  // held where they were: their velocity and acceleration are exactly zero
+  // Held where they were, their velocity and acceleration are exactly zero.
+  if (!interval_->moving && imposed_) return;
   for (const Held& h : held_) {
+    if (!h.moves && imposed_) continue;
     state_[u() + h.slot] = prescribed(h.dof, t, 0);
     state_[v() + h.slot] = prescribed(h.dof, t, 1);
   }
+  imposed_ = true;
 }
 
 void EdgeBody::sweep_block(const Sweep& sweep, std::size_t block) const {
@@ -167,6 +173,7 @@ void EdgeBody::sweep_block(const Sweep& sweep, std::size_t block) const {
   }
   if (!interval_->moving) return;
   for (std::size_t k = held_begin_[block]; k < held_begin_[block + 1]; ++k) {
+    if (!held_[k].moves) continue;
     double a = 0.0;
     for (int d = 0; d < 4; ++d) {
       if (forcing.weight[d] != 0.0) a += forcing.weight[d] * prescribed(held_[k].dof, forcing.t, 2 + d);
@@ -231,11 +238,74 @@ EdgeBody::Sums EdgeBody::sums_of(const EdgeForm::Block& block) const {
   return sums;
 }
 
+// Only constrained nodes are asked for, a few: one by one, not by a sweep over the mesh.
+EdgeBody::NodeForce EdgeBody::force_at(std::size_t node) const {
+  const double* xp = state_.data() + p();
+  const double* xv = state_.data() + v();
+  const std::size_t row_size = row();
+  // p and p' of a node, a row each.
+  struct Rows {
+    std::array<double, 4> p{}, rate{};
+  };
+  const auto at = [&](std::size_t i) {
+    Rows rows;
+    for (std::size_t c = 0; c < row_size; ++c) {
+      rows.p[c] = xp[row_size * i + c];
+      rows.rate[c] = material_.growth[c] * xv[2 * i + c % 2] - material_.decay[c] * rows.p[c];
+    }
+    return rows;
+  };
+  const auto difference = [&](const Rows& a, const Rows& b) {
+    Rows d;
+    for (std::size_t c = 0; c < row_size; ++c) {
+      d.p[c] = a.p[c] - b.p[c];
+      d.rate[c] = a.rate[c] - b.rate[c];
+    }
+    return d;
+  };
+  NodeForce result;
+  const auto run = std::upper_bound(
+      form_.runs.begin(), form_.runs.end(), node,
+      [](std::size_t i, const EdgeForm::Run& r) { return i < static_cast<std::size_t>(r.last); });
+  const EdgeForm::Edges edges = run->edges_of(static_cast<std::int64_t>(node));
+  const Rows own = at(node);
+  for (std::int32_t k = 0; k < run->valence; ++k) {
+    const auto edge = static_cast<std::size_t>(edges.edge + k * edges.stride);
+    const Rows d = difference(at(form_.offset[edge] / row_size), own);
+    const double* level = form_.level.data() + row_size * edge;
+    const double mixed = form_.mixed[edge];
+    // Rows of two have nothing in their third and fourth number.
+    const auto add = [&](const std::array<double, 4>& w, std::array<double, 2>& f) {
+      f[0] += level[0] * w[0] + mixed * (w[1] + w[3]);
+      f[1] += level[1] * w[1] + mixed * (w[0] + w[2]);
+      if (row_size < 4) return;
+      f[0] += level[2] * w[2];
+      f[1] += level[3] * w[3];
+    };
+    add(d.p, result.force);
+    add(d.rate, result.rate);
+  }
+  const auto by_node = [](const EdgeForm::Corner& c, std::size_t i) {
+    return static_cast<std::size_t>(c.node) < i;
+  };
+  for (auto c = std::lower_bound(form_.corners.begin(), form_.corners.end(), node, by_node);
+       c != form_.corners.end() && static_cast<std::size_t>(c->node) == node; ++c) {
+    const Rows d =
+        difference(at(static_cast<std::size_t>(c->next)), at(static_cast<std::size_t>(c->previous)));
+    const auto add = [&](const std::array<double, 4>& w, std::array<double, 2>& f) {
+      f[0] += form_.corner_factor * (w[1] - w[3]);
+      f[1] -= form_.corner_factor * (w[0] - w[2]);
+    };
+    add(d.p, result.force);
+    add(d.rate, result.rate);
+  }
+  return result;
+}
+
 EnergySample EdgeBody::sample(double t) {
   const Material& material = model_.material;
   const double* xp = state_.data() + p();
   const double* xv = state_.data() + v();
-  const double* xu = state_.data() + u();
   team_.chain(1, [&](std::size_t, std::size_t block) { sums_[block] = sums_of(form_.blocks[block]); });
   double ll = 0.0, mm = 0.0, vl = 0.0, vm = 0.0, kinetic = 0.0;
   for (const Sums& sums : sums_) {
@@ -279,6 +349,15 @@ EnergySample EdgeBody::sample(double t) {
     branch(ll, vl, material.lambda_ela, material.lambda_vis, material.lambda_rate());
     branch(mm, vm, material.mu_ela, material.mu_vis, material.mu_rate());
   }
+  resample(t, e);
+  return e;
+}
+
+void EdgeBody::resample(double t, EnergySample& e) {
+  const double* xv = state_.data() + v();
+  const double* xu = state_.data() + u();
+  e.load = e.load_power = e.load_slope = e.load_slope_rate = 0.0;
+  e.constraints = e.constraints_rate = 0.0;
   const double s = t - interval_->begin;
   for (const Load& load : loads_) {
     e.load += (load.force + s * load.force_slope) * xu[load.slot];
@@ -288,37 +367,43 @@ EnergySample EdgeBody::sample(double t) {
   }
   if (interval_->moving) {
     // R = m b'' + F - f and its slope with F(w') for F(w).
-    edge_force_.apply(xp, force_.data());
-    for (std::size_t i = 0; i < p_rate_.size(); ++i) {
-      const std::size_t k = i % row();
-      p_rate_[i] = material_.growth[k] * xv[i / row() * 2 + k % 2] - material_.decay[k] * xp[i];
-    }
-    edge_force_.apply(p_rate_.data(), force_rate_.data());
-    for (const Held& h : held_) external_[h.slot] = external_rate_[h.slot] = 0.0;
     for (const Load& load : loads_) {
       external_[load.slot] = load.force + s * load.force_slope;
       external_rate_[load.slot] = load.force_slope;
     }
+    NodeForce at;
+    std::size_t node = mass_.size();
     for (const Held& h : held_) {
+      if (!h.moves) continue;
+      if (h.slot / 2 != node) at = force_at(node = h.slot / 2);
       const double a = prescribed(h.dof, t, 2);
-      const double r = mass_[h.slot] * a + force_[h.slot] - external_[h.slot];
+      const double r = mass_[h.slot] * a + at.force[h.slot % 2] - external_[h.slot];
       const double r_rate =
-          mass_[h.slot] * prescribed(h.dof, t, 3) + force_rate_[h.slot] - external_rate_[h.slot];
+          mass_[h.slot] * prescribed(h.dof, t, 3) + at.rate[h.slot % 2] - external_rate_[h.slot];
       e.constraints += r * xv[h.slot];
       e.constraints_rate += r_rate * xv[h.slot] + r * a;
     }
+    for (const Load& load : loads_) external_[load.slot] = external_rate_[load.slot] = 0.0;
   }
-  return e;
 }
 
 void EdgeBody::reaction(double t, Vector& out) {
-  edge_force_.apply(state_.data() + p(), force_.data());
-  const Vector external = Body::external_force(t);
   out.setZero(static_cast<Eigen::Index>(model_.layout.part));
-  for (const Held& h : held_) {
-    out[h.dof.dof] = mass_[h.slot] * (interval_->moving ? prescribed(h.dof, t, 2) : 0.0) + force_[h.slot] -
-                     external[h.dof.dof];
+  reaction_at(t, interval_->eliminated, out);
+}
+
+void EdgeBody::reaction_at(double t, std::span<const HeldDof> held, Vector& out) {
+  const double s = t - interval_->begin;
+  for (const Load& load : loads_) external_[load.slot] = load.force + s * load.force_slope;
+  NodeForce at;
+  std::size_t node = mass_.size();
+  for (const HeldDof& h : held) {
+    const std::size_t k = slot(h.dof);
+    if (k / 2 != node) at = force_at(node = k / 2);
+    const double a = interval_->moving ? prescribed(h, t, 2) : 0.0;
+    out[h.dof] = mass_[k] * a + at.force[k % 2] - external_[k];
   }
+  for (const Load& load : loads_) external_[load.slot] = 0.0;
 }
 
 }  // namespace rheo

@@ -6,6 +6,7 @@
 // Not here consistent mass, general constraints: AssembledBody
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "body.hpp"
@@ -34,7 +35,9 @@ class EdgeBody final : public Body {
   void chain(std::span<const Sweep> sweeps) override;
   std::span<const StatePart> parts() const override { return parts_; }
   EnergySample sample(double t) override;
+  void resample(double t, EnergySample& sample) override;
   void reaction(double t, Vector& out) override;
+  void reaction_at(double t, std::span<const HeldDof> held, Vector& out) override;
 
  private:
   // The state's parts: p (n x row), v (n x 2), u (n x 2; p itself where nothing relaxes).
@@ -48,6 +51,12 @@ class EdgeBody final : public Body {
 
   // One sweep over one block.
   void sweep_block(const Sweep& sweep, std::size_t block) const;
+
+  // Of one node: the force F of the state, and with w' for w.
+  struct NodeForce {
+    std::array<double, 2> force{}, rate{};
+  };
+  NodeForce force_at(std::size_t node) const;
 
   // Sums over a block's edges and nodes, for the energies; combined branches: ll and vl with K for both.
   struct Sums {
@@ -77,13 +86,13 @@ class EdgeBody final : public Body {
   struct Held {
     std::size_t slot = 0;
     HeldDof dof;
+    bool moves = false;  // in this interval; else v = 0 exactly
   };
   std::vector<Held> held_;
+  bool imposed_ = false;  // since the interval began
   // Where each block's corners, loads and held degrees of freedom begin; one more at the end.
   std::vector<std::size_t> corner_begin_, load_begin_, held_begin_;
-  std::vector<double> p_rate_;
-  Vector force_, force_rate_;
-  std::vector<double> external_, external_rate_;
+  std::vector<double> external_, external_rate_;  // n x 2, kernel order: of the loads, else zero
 };
 
 }  // namespace rheo

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -34,6 +35,7 @@ struct MeshLayout {
 struct TractionArrow {
   std::array<double, 2> at{};      // a point of the deformed edge
   std::array<double, 2> vector{};  // [Pa]
+  friend bool operator==(const TractionArrow&, const TractionArrow&) = default;
 };
 
 struct MeshFrame {
@@ -44,6 +46,13 @@ struct MeshFrame {
   double time = 0.0;
 };
 
+// What frames and sheets have cost so far.
+struct PictureCounters {
+  std::int64_t frames_drawn = 0;
+  std::int64_t frames_repeated = 0;  // alike but for the time in the heading, which alone was drawn
+  std::int64_t mesh_uploads = 0;     // of positions and colours; none where neither changed
+};
+
 class MeshPicture {
  public:
   // Draws with `context`, which must outlive this; pictures have the context's size.
@@ -52,11 +61,14 @@ class MeshPicture {
   MeshPicture(MeshPicture&&) noexcept;
 
   // One frame with everything: mesh, outline, rest shape, hatches, arrows, colour bar, title, time. `out` is
-  // resized where needed, its memory used again.
+  // resized where needed, its memory used again. Of a frame that differs from the last one by its time only,
+  // all else is taken from there: the same pixels.
   void draw(const MeshFrame& frame, Image& out);
 
   // Successive shapes in a grid, each with its time, all at one scale, one colour bar (the paper's Figure 3).
   Image sheet(std::span<const MeshFrame> frames);
+
+  PictureCounters counters() const;
 
  private:
   struct Impl;

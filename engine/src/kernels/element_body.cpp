@@ -1,0 +1,294 @@
+#include "kernels/element_body.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace rheo {
+namespace {
+
+constexpr std::int32_t smallest_block =
+    256;                                  // nodes: shorter ones cost more in turns than they keep in cache
+constexpr std::int32_t shared_block = 4;  // bandwidths: shorter ones compute too many triangles twice
+
+// Below some thousand nodes a thread's part of a step is too short to share.
+int wanted_threads(int nodes, int asked) {
+  constexpr int nodes_a_thread = 1500;
+  return asked > 0 ? asked : std::clamp(nodes / nodes_a_thread, 1, usable_processors());
+}
+
+std::vector<ElementForm::Block> make_blocks(const ElementForm& form, int threads) {
+  const bool shared = wanted_threads(form.nodes, threads) > 1;
+  return form.blocks(std::max(smallest_block, shared ? shared_block * form.bandwidth : 0));
+}
+
+std::vector<double> twice(const std::vector<double>& by_node) {
+  std::vector<double> result;
+  result.reserve(2 * by_node.size());
+  for (const double x : by_node) result.insert(result.end(), {x, x});
+  return result;
+}
+
+std::vector<std::int32_t> ends(const std::vector<ElementForm::Block>& blocks) {
+  std::vector<std::int32_t> result;
+  for (const ElementForm::Block& block : blocks) result.push_back(block.last_node);
+  return result;
+}
+
+// Of all residual forces driven by one v at the largest frequency, the smallest one's size over the
+// largest's: they share a part of the state, and an error bound for it has to be smaller by as much to hold
+// for each.
+double smallest_share(const std::vector<Material>& materials, double omega) {
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
+  const auto include = [&](double ela, double rate) {
+    if (ela == 0.0) return;
+    const double reach = ela / (rate + omega);
+    smallest = std::min(smallest, reach);
+    largest = std::max(largest, reach);
+  };
+  for (const Material& m : materials) {
+    include(m.lambda_ela, m.lambda_rate());
+    include(m.mu_ela, m.mu_rate());
+  }
+  return largest > 0.0 ? smallest / largest : 1.0;
+}
+
+SweepMaterial sweep_material(const Material& m) {
+  return {{m.lambda_ela, m.lambda_ela, m.mu_ela, m.mu_ela},
+          {m.lambda_rate(), m.lambda_rate(), m.mu_rate(), m.mu_rate()}};
+}
+
+}  // namespace
+
+ElementBody::ElementBody(const Model& model, const ElementForce& force, int threads)
+    : Body(model, 0.0),
+      element_force_(force),
+      form_(force.form()),
+      blocks_(make_blocks(form_, threads)),
+      team_(blocks_.size(), wanted_threads(form_.nodes, threads)),
+      mass_(twice(form_.node_mass)),
+      terms_(mass_, form_.kernel_node, ends(blocks_)),
+      stretches_(form_.blocks(smallest_block)),
+      stretch_team_(stretches_.size(), team_.threads()) {
+  const auto n = static_cast<std::size_t>(form_.nodes);
+  const auto s = static_cast<std::size_t>(form_.slots);
+  state_.assign(4 * s + 4 * n, 0.0);
+  parts_ = {StatePart{4 * s, smallest_share(form_.materials, model.element_omega)}, StatePart{2 * n, 1.0},
+            StatePart{2 * n, 1.0}};
+  for (const Material& m : form_.materials) materials_.push_back(sweep_material(m));
+  forces_.assign(team_.threads() > 1 ? 3 : 1, std::vector<double>(2 * s, 0.0));
+  sums_.resize(stretches_.size() * form_.materials.size());
+  slot_force_.assign(2 * s, 0.0);
+  force_.assign(2 * n, 0.0);
+  force_rate_.assign(2 * n, 0.0);
+  p_rate_.assign(4 * s, 0.0);
+}
+
+void ElementBody::load(std::span<const double> y) {
+  assert(form_.slots == form_.nodes);
+  const Layout& layout = model_.layout;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(form_.nodes); ++k) {
+    const auto node = static_cast<std::size_t>(form_.mesh_node[k]);
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const std::size_t i = 2 * node + axis;
+      state_[p() + 4 * k + axis] = layout.lambda ? y[layout.w_lambda() + i] : 0.0;
+      state_[p() + 4 * k + 2 + axis] = layout.mu ? y[layout.w_mu() + i] : 0.0;
+      state_[v() + 2 * k + axis] = y[layout.v() + i];
+      state_[u() + 2 * k + axis] = y[layout.u() + i];
+    }
+  }
+}
+
+void ElementBody::store(std::span<double> y) const {
+  assert(form_.slots == form_.nodes);
+  const Layout& layout = model_.layout;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(form_.nodes); ++k) {
+    const auto node = static_cast<std::size_t>(form_.mesh_node[k]);
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const std::size_t i = 2 * node + axis;
+      if (layout.lambda) y[layout.w_lambda() + i] = state_[p() + 4 * k + axis];
+      if (layout.mu) y[layout.w_mu() + i] = state_[p() + 4 * k + 2 + axis];
+      y[layout.v() + i] = state_[v() + 2 * k + axis];
+      y[layout.u() + i] = state_[u() + 2 * k + axis];
+    }
+  }
+}
+
+void ElementBody::enter(const Interval& interval, const Vector& base) {
+  Body::enter(interval, base);
+  terms_.enter(interval);
+}
+
+void ElementBody::impose_prescribed(double t) {
+  terms_.impose(*this, t, state_.data() + u(), state_.data() + v());
+}
+
+void ElementBody::fma(double h, std::span<const double> x, std::span<const double> base,
+                      const Forcing& forcing, std::span<double> out, Result result) {
+  const Sweep sweep{h, x, base, forcing, out, result};
+  chain({&sweep, 1});
+}
+
+void ElementBody::chain(std::span<const Sweep> sweeps) {
+  counters_.force_evaluations += static_cast<std::int64_t>(sweeps.size());
+  counters_.branch_updates += 2 * static_cast<std::int64_t>(sweeps.size());
+  for (const Sweep& sweep : sweeps) {
+    if (sweep.result == Result::step) ++counters_.displacement_updates;
+  }
+  team_.chain(sweeps.size(),
+              [&](std::size_t sweep, std::size_t block) { sweep_block(sweeps[sweep], block); });
+}
+
+// A node's force is the sum over its triangles in their order, in both of the ways: those of the block before
+// come first.
+void ElementBody::sweep_block(const Sweep& sweep, std::size_t block) {
+  const ElementForm::Block& b = blocks_[block];
+  const double* x_p = sweep.x.data() + p();
+  double* force = forces_[block % forces_.size()].data();
+  if (forces_.size() > 1) {
+    const auto begin =
+        static_cast<std::size_t>(form_.slot_begin[blocks_[block > 0 ? block - 1 : 0].first_node]);
+    const auto end = static_cast<std::size_t>(
+        form_.slot_begin[blocks_[std::min(block + 1, blocks_.size() - 1)].last_node]);
+    std::fill(force + 2 * begin, force + 2 * end, 0.0);
+    element_force_.sweep().add_forces(form_, x_p, force, b.reaching, b.first_triangle);
+  }
+  element_force_.sweep().add_forces(form_, x_p, force, b.first_triangle, b.last_triangle);
+
+  for (std::int32_t r = b.first_run; r < b.last_run; ++r) {
+    const ElementForm::Run& run = form_.runs[r];
+    const std::int32_t first = std::max(run.first, b.first_node);
+    const std::int32_t last = std::min(run.last, b.last_node);
+    const auto node = static_cast<std::size_t>(first);
+    const auto slot = static_cast<std::size_t>(run.slot + (first - run.first) * run.slots_a_node);
+    const bool step = sweep.result == Result::step;
+    const SweepArrays arrays{x_p + 4 * slot,
+                             sweep.x.data() + v() + 2 * node,
+                             sweep.base.data() + p() + 4 * slot,
+                             sweep.base.data() + v() + 2 * node,
+                             sweep.out.data() + p() + 4 * slot,
+                             sweep.out.data() + v() + 2 * node,
+                             sweep.base.data() + u() + 2 * node,
+                             step ? sweep.out.data() + u() + 2 * node : nullptr};
+    if (run.slots_a_node > 1) {
+      advance_interface(run, sweep.h, arrays, force + 2 * slot);
+    } else {
+      const NodeStretch stretch{last - first, arrays, terms_.inverse_mass().data() + 2 * node,
+                                force + 2 * slot};
+      element_force_.sweep().advance(stretch, materials_[run.region], sweep.h);
+    }
+  }
+  terms_.add(*this, sweep.h, sweep.forcing, sweep.out.data() + v(), block);
+}
+
+void ElementBody::advance_interface(const ElementForm::Run& run, double h, const SweepArrays& a,
+                                    double* force) {
+  const double* inverse_mass = terms_.inverse_mass().data() + 2 * static_cast<std::size_t>(run.first);
+  const double velocity[2] = {a.x_v[0], a.x_v[1]};
+  double sum[2] = {};
+  for (std::int32_t s = 0; s < run.slots_a_node; ++s) {
+    const SweepMaterial& m = materials_[form_.slot_region[run.slot + s]];
+    for (int axis = 0; axis < 2; ++axis) {
+      sum[axis] += force[2 * s + axis];
+      force[2 * s + axis] = 0.0;
+    }
+    for (int c = 0; c < 4; ++c) {
+      const int k = 4 * s + c;
+      a.out_p[k] = a.base_p[k] + h * (m.growth[c] * velocity[c % 2] - m.decay[c] * a.x_p[k]);
+    }
+  }
+  for (int axis = 0; axis < 2; ++axis) {
+    a.out_v[axis] = a.base_v[axis] - h * (inverse_mass[axis] * sum[axis]);
+    if (a.out_u != nullptr) a.out_u[axis] = a.base_u[axis] + h * velocity[axis];
+  }
+}
+
+void ElementBody::node_forces(const double* p, std::vector<double>& force) {
+  element_force_.apply(p, slot_force_.data());
+  std::fill(force.begin(), force.end(), 0.0);
+  for (std::size_t s = 0; s < static_cast<std::size_t>(form_.slots); ++s) {
+    const auto node = static_cast<std::size_t>(form_.slot_node[s]);
+    force[2 * node] += slot_force_[2 * s];
+    force[2 * node + 1] += slot_force_[2 * s + 1];
+  }
+}
+
+// w_l^T J_lambda w_l = sum of div^2, w_m^T J_mu w_m = sum of 2 xx^2 + 2 yy^2 + (xy + yx)^2, by triangle.
+void ElementBody::add_sums(const ElementForm::Block& stretch, std::span<Sums> by_region) const {
+  const double* xp = state_.data() + p();
+  const double* xv = state_.data() + v();
+  for (std::int64_t e = stretch.first_triangle; e < stretch.last_triangle; ++e) {
+    const auto& q = form_.gradient[e];
+    double x[6] = {}, y[6] = {};  // d/dx and d/dy of l, m, v
+    for (std::size_t corner : {1u, 2u}) {
+      const std::uint32_t i = form_.offset[e][0], j = form_.offset[e][corner];
+      const double b = q[2 * (corner - 1)], c = q[2 * (corner - 1) + 1];
+      const double* vi = xv + 2 * static_cast<std::size_t>(form_.slot_node[i / 4]);
+      const double* vj = xv + 2 * static_cast<std::size_t>(form_.slot_node[j / 4]);
+      for (std::size_t k = 0; k < 6; ++k) {
+        const double d = k < 4 ? xp[j + k] - xp[i + k] : vj[k - 4] - vi[k - 4];
+        x[k] += b * d;
+        y[k] += c * d;
+      }
+    }
+    Sums& sums = by_region[static_cast<std::size_t>(form_.slot_region[form_.offset[e][0] / 4])];
+    const double l = x[0] + y[1];
+    const double mx = x[2], my = y[3], ms = x[3] + y[2];
+    sums.ll += l * l;
+    sums.mm += 2 * (mx * mx + my * my) + ms * ms;
+    sums.vl += (x[4] + y[5]) * l;
+    sums.vm += 2 * (x[4] * mx + y[5] * my) + (x[5] + y[4]) * ms;
+  }
+}
+
+EnergySample ElementBody::sample(double t) {
+  const double* xp = state_.data() + p();
+  const double* xv = state_.data() + v();
+  const std::size_t regions = form_.materials.size();
+  std::fill(sums_.begin(), sums_.end(), Sums{});
+  stretch_team_.chain(1, [&](std::size_t, std::size_t k) {
+    add_sums(stretches_[k], std::span(sums_).subspan(k * regions, regions));
+  });
+
+  EnergySample e;
+  for (std::size_t r = 0; r < regions; ++r) {
+    Sums total;
+    for (std::size_t k = r; k < sums_.size(); k += regions) {
+      total.ll += sums_[k].ll;
+      total.mm += sums_[k].mm;
+      total.vl += sums_[k].vl;
+      total.vm += sums_[k].vm;
+    }
+    const auto branch = [&](double quadratic, double with_v, double ela, double vis, double decay) {
+      if (ela == 0.0) return;
+      e.stored += 0.5 * quadratic / ela;
+      if (std::isinf(vis)) return;
+      e.dissipated += quadratic / vis;
+      e.dissipated_rate += 2.0 * (ela * with_v - decay * quadratic) / vis;
+    };
+    const Material& m = form_.materials[r];
+    branch(total.ll, total.vl, m.lambda_ela, m.lambda_vis, m.lambda_rate());
+    branch(total.mm, total.vm, m.mu_ela, m.mu_vis, m.mu_rate());
+  }
+  for (std::size_t i = 0; i < mass_.size(); ++i) e.kinetic += 0.5 * mass_[i] * xv[i] * xv[i];
+  terms_.sample_loads(t, state_.data() + u(), xv, e);
+  if (terms_.moving()) {
+    for (std::size_t s = 0; s < static_cast<std::size_t>(form_.slots); ++s) {
+      const SweepMaterial& m = materials_[form_.slot_region[s]];
+      const double* vs = xv + 2 * static_cast<std::size_t>(form_.slot_node[s]);
+      for (std::size_t c = 0; c < 4; ++c)
+        p_rate_[4 * s + c] = m.growth[c] * vs[c % 2] - m.decay[c] * xp[4 * s + c];
+    }
+    node_forces(xp, force_);
+    node_forces(p_rate_.data(), force_rate_);
+    terms_.sample_constraints(*this, t, force_.data(), force_rate_.data(), xv, e);
+  }
+  return e;
+}
+
+void ElementBody::reaction(double t, Vector& out) {
+  node_forces(state_.data() + p(), force_);
+  terms_.reaction(*this, t, force_.data(), out);
+}
+
+}  // namespace rheo

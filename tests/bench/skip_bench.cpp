@@ -1,0 +1,207 @@
+// What is left out where a scene does not need it: the time with against without, on about 10k triangles.
+//
+//   skip/constraints/...   fixed nodes eliminated; the same by Baumgarte's equation for each (KKT)
+//   skip/branches/...      one rate: the branches combined; the same material with both advanced
+//   skip/relaxation/...    nothing relaxes: residual forces taken from u; combined but advanced; both
+//   advanced skip/displacement/...  u advanced once a step; in every sweep skip/energies/...      energies at
+//   no step; at every step skip/rest/...          a simulated second of a body at rest; of one that still
+//   moves skip/denormals/...     a step from 1 and after 1e6 s of relaxation; there without flushing denormal
+//   numbers
+//
+// Counters: ns a triangle and step (rest: microseconds a simulated second).
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <vector>
+
+#include "kernels/edge_body.hpp"
+#include "kernels/flush_denormals.hpp"
+#include "rheo/simulation.hpp"
+#include "step_case.hpp"
+
+namespace {
+
+constexpr int triangles = 10000;
+
+void report(benchmark::State& state, double per_iteration) {
+  state.counters["ns/tri"] = benchmark::Counter(
+      1e-9 * per_iteration, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+// Whole steps of the engine, no output between them.
+void simulate(benchmark::State& state, rheo::Scene scene, bool energies) {
+  constexpr int steps = 16;
+  scene.time.duration = 1e6;
+  scene.time.frame_rate = 1e-6;
+  rheo::SimulationOptions options;
+  options.threads = 1;
+  options.energies = energies;
+  rheo::Simulation simulation(std::move(scene), options);
+  const double length = steps * simulation.step_bound();
+  double t = 0.0;
+  for (auto _ : state) {
+    t += length;
+    if (simulation.advance(t)) {
+      state.SkipWithError("diverged");
+      return;
+    }
+  }
+  report(state, steps * simulation.scene().mesh.triangle_count());
+}
+
+rheo::Scene block() {
+  return bench::case_of(triangles).scene;
+}
+
+void constraints(benchmark::State& state, rheo::ConstraintMethod method) {
+  rheo::Scene scene = block();
+  scene.time.constraints = method;
+  simulate(state, std::move(scene), false);
+}
+
+void energies(benchmark::State& state, bool asked) {
+  simulate(state, block(), asked);
+}
+
+// Steps of the edge kernel alone, with what it is told of the material.
+void edge_steps(benchmark::State& state, const rheo::Material& material, const rheo::EdgeForm& form,
+                const std::function<void(rheo::EdgeBody&, double)>& step) {
+  const bench::Case& c = bench::case_of(triangles);
+  const rheo::Model model(c.scene.mesh, material);
+  const rheo::EdgeForce force(std::make_shared<rheo::EdgeForm>(form), rheo::best_simd_level());
+  rheo::EdgeBody body(model, force, 1);
+  body.enter(c.interval, c.base);
+  body.load(c.y);
+  for (auto _ : state) step(body, c.step);
+  report(state, c.scene.mesh.triangle_count());
+}
+
+rheo::Material one_rate() {
+  return {7, 5, 14, 10, 0.2, rheo::Mass::lumped};
+}
+rheo::Material elastic() {
+  return {7, 5, rheo::forever, rheo::forever, 0.2, rheo::Mass::lumped};
+}
+// All but elastic: rates that change nothing in a benchmark's time.
+rheo::Material nearly_elastic() {
+  return {7, 5, 7e9, 5e9, 0.2, rheo::Mass::lumped};
+}
+
+enum class Branches { apart, together };
+
+void branches(benchmark::State& state, const rheo::Material& material, Branches way) {
+  const rheo::Mesh& mesh = bench::case_of(triangles).scene.mesh;
+  const rheo::EdgeForm form =
+      way == Branches::together ? rheo::EdgeForm(mesh, rheo::combined(material)) : rheo::EdgeForm(mesh);
+  std::unique_ptr<rheo::Integrator> rk4;
+  edge_steps(state, material, form, [&](rheo::EdgeBody& body, double h) {
+    if (!rk4) rk4 = rheo::make_integrator(rheo::IntegratorKind::rk4, body.size());
+    rk4->step(body, 0.0, h, body.state(), {});
+  });
+}
+
+void displacement(benchmark::State& state, rheo::Result inner) {
+  const bench::Case& c = bench::case_of(triangles);
+  std::vector<double> a, b;
+  edge_steps(state, c.scene.material, rheo::EdgeForm(c.scene.mesh), [&](rheo::EdgeBody& body, double h) {
+    a.resize(body.size());
+    b.resize(body.size());
+    const auto y = body.state();
+    const rheo::Forcing none{};
+    const std::array<rheo::LinearOperator::Sweep, 4> sweeps{{{h / 4, y, y, none, a, inner},
+                                                             {h / 3, a, y, none, b, inner},
+                                                             {h / 2, b, y, none, a, inner},
+                                                             {h, a, y, none, y, rheo::Result::step}}};
+    body.chain(sweeps);
+  });
+}
+
+void rest(benchmark::State& state, bool moving) {
+  rheo::Scene scene = block();
+  scene.tractions[0].window.until = 0.01;
+  scene.time.duration = 1e9;
+  scene.time.frame_rate = 1e-3;
+  if (moving) {
+    scene.material.lambda_vis = scene.material.mu_vis = rheo::forever;  // for ever
+  } else {
+    scene.material = {7, 5, 0.7, 0.5, 0.2, rheo::Mass::lumped};
+  }
+  rheo::SimulationOptions options;
+  options.threads = 1;
+  rheo::Simulation simulation(std::move(scene), options);
+  double t = moving ? 0.02 : 200.0;
+  if (simulation.advance(t)) state.SkipWithError("diverged");
+  const double length = moving ? 0.01 : 1.0;
+  for (auto _ : state) {
+    t += length;
+    benchmark::DoNotOptimize(simulation.advance(t));
+  }
+  state.counters["us/s"] = benchmark::Counter(
+      1e-6 * length, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+enum class State { fresh, relaxed };
+enum class Denormals { flushed, kept };
+
+// The size of what 1e6 s leave of a rate of 1/s: far below the smallest normal number, which is where a
+// decaying state stays for a while on its way to zero.
+void denormals(benchmark::State& state, State size, Denormals way) {
+  const bench::Case& c = bench::case_of(triangles);
+  std::unique_ptr<rheo::FlushDenormals> flush;
+  if (way == Denormals::flushed) flush = std::make_unique<rheo::FlushDenormals>();
+  const auto rk4 = rheo::make_integrator(rheo::IntegratorKind::rk4, c.y.size());
+  std::vector<double> y = c.y;
+  if (size == State::relaxed) {
+    for (double& x : y) x *= 1e-310;
+  }
+  rheo::Interval unloaded = c.interval;
+  unloaded.force.setZero();
+  const rheo::EdgeForce force(std::make_shared<rheo::EdgeForm>(c.scene.mesh), rheo::best_simd_level());
+  rheo::EdgeBody body(*c.model, force, 1);
+  body.enter(unloaded, c.base);
+  body.load(y);
+  for (auto _ : state) rk4->step(body, 0.0, c.step, body.state(), {});
+  report(state, c.scene.mesh.triangle_count());
+}
+
+BENCHMARK_CAPTURE(constraints, eliminated, rheo::ConstraintMethod::automatic)
+    ->Name("skip/constraints/eliminated")
+    ->UseRealTime();
+BENCHMARK_CAPTURE(constraints, solved, rheo::ConstraintMethod::baumgarte)
+    ->Name("skip/constraints/solved_for")
+    ->UseRealTime();
+BENCHMARK_CAPTURE(branches, one, one_rate(), Branches::together)
+    ->Name("skip/branches/combined")
+    ->UseRealTime();
+BENCHMARK_CAPTURE(branches, two, one_rate(), Branches::apart)->Name("skip/branches/both")->UseRealTime();
+BENCHMARK_CAPTURE(branches, elastic, elastic(), Branches::together)
+    ->Name("skip/relaxation/from_u")
+    ->UseRealTime();
+BENCHMARK_CAPTURE(branches, advanced, nearly_elastic(), Branches::together)
+    ->Name("skip/relaxation/combined")
+    ->UseRealTime();
+BENCHMARK_CAPTURE(branches, both, elastic(), Branches::apart)->Name("skip/relaxation/both")->UseRealTime();
+BENCHMARK_CAPTURE(displacement, once, rheo::Result::intermediate)
+    ->Name("skip/displacement/once")
+    ->UseRealTime();
+BENCHMARK_CAPTURE(displacement, always, rheo::Result::step)
+    ->Name("skip/displacement/every_sweep")
+    ->UseRealTime();
+BENCHMARK_CAPTURE(energies, never, false)->Name("skip/energies/never")->UseRealTime();
+BENCHMARK_CAPTURE(energies, always, true)->Name("skip/energies/every_step")->UseRealTime();
+BENCHMARK_CAPTURE(rest, still, false)->Name("skip/rest/at_rest")->UseRealTime();
+BENCHMARK_CAPTURE(rest, moving, true)->Name("skip/rest/moving")->UseRealTime();
+BENCHMARK_CAPTURE(denormals, fresh, State::fresh, Denormals::flushed)
+    ->Name("skip/denormals/fresh")
+    ->UseRealTime();
+BENCHMARK_CAPTURE(denormals, relaxed, State::relaxed, Denormals::flushed)
+    ->Name("skip/denormals/relaxed")
+    ->UseRealTime();
+BENCHMARK_CAPTURE(denormals, kept, State::relaxed, Denormals::kept)
+    ->Name("skip/denormals/relaxed_unflushed")
+    ->UseRealTime();
+
+}  // namespace
