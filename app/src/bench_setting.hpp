@@ -21,6 +21,8 @@ inline rheo::Scene scene_with(const rheo::Scene& scene, const Setting& setting) 
   other.time.integrator = setting.integrator;
   other.time.step = setting.step;
   if (setting.tolerance > 0.0) other.time.tolerance = setting.tolerance;
+  other.time.accuracy = 0.0;
+  other.time.refinement = 1.0;
   other.time.where.clear();  // what is wrong now is not the file's
   return other;
 }

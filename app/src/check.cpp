@@ -14,6 +14,7 @@
 #include "memory_need.hpp"
 #include "option_values.hpp"
 #include "overrides.hpp"
+#include "progress.hpp"
 #include "rheo/deformation.hpp"
 #include "rheo/simulation.hpp"
 #include "run_notes.hpp"
@@ -148,7 +149,7 @@ EulerLimit euler_limit_of(const rheo::Scene& scene, const rheo::Simulation& simu
 }
 
 void print_steps(const rheo::Simulation& simulation, rheo::IntegratorKind integrator, EulerLimit euler_limit,
-                 Verdict verdict) {
+                 Verdict verdict, const std::optional<rheo::AccuracyPlan>& plan) {
   const rheo::Spectrum& spectrum = simulation.spectrum();
   const rheo::TimeSettings& time = simulation.scene().time;
   row("omega_max", "{:.6g} rad/s ({} Lanczos steps); by single elements {:.6g} rad/s", spectrum.omega_max,
@@ -156,6 +157,7 @@ void print_steps(const rheo::Simulation& simulation, rheo::IntegratorKind integr
   row("stable rk4", "{}", stable_text(rheo::stable_step(spectrum, rheo::IntegratorKind::rk4)));
   row("stable euler", "{}{}", stable_text(euler_limit.step),
       euler_limit.bound && euler_limit.step > 0.0 ? " at least (a safe bound)" : "");
+  if (plan) row("accuracy", "{}", plan_text(*plan));
   row("integrator", "{}", name_of(integrator));
   row("kernel", "{}", simulation.kernel());
   if (integrator == rheo::IntegratorKind::exponential) row("tolerance", "{:g}", time.tolerance);
@@ -169,7 +171,9 @@ void print_steps(const rheo::Simulation& simulation, rheo::IntegratorKind integr
     row("steps", "{} in {:g} s", simulation.planned_steps(), time.duration);
   } else {
     row("step", "{:.6g} s at most ({}{})", simulation.step_bound(),
-        time.step > 0.0 ? "as asked" : "auto: a quarter of the stable step",
+        plan              ? "for the accuracy"
+        : time.step > 0.0 ? "as asked"
+                          : "auto: a quarter of the stable step",
         verdict == Verdict::too_long ? ", beyond the stable step" : "");
     row("steps", "{} in {:g} s", simulation.planned_steps(), time.duration);
   }
@@ -245,8 +249,16 @@ void print_cost(rheo::Simulation& simulation, Verdict verdict) {
 }  // namespace
 
 void check_scene(const Options& options) {
-  const rheo::Scene scene = load_scene(options);
+  rheo::Scene scene = load_scene(options);
   require_memory(scene, options);
+  std::optional<rheo::AccuracyPlan> plan;
+  if (scene.time.accuracy > 0.0) {
+    Progress progress(options.quiet ? Verbosity::quiet : Verbosity::normal);
+    rheo::SimulationOptions told = options.simulation;
+    told.planning = trial_runs_on(progress);
+    plan = rheo::plan_accuracy(scene, told);
+    scene = rheo::with_plan(std::move(scene), *plan);
+  }
   const rheo::TimeSettings& time = scene.time;
   // The report comes before a refusal: built with any step, and where Euler has none, as RK4.
   rheo::SimulationOptions any_step = options.simulation;
@@ -267,7 +279,7 @@ void check_scene(const Options& options) {
   for (const std::string& note : run_notes(scene)) fmt::print("  note: {}\n", note);
   print_mesh(scene);
   print_loads(scene);
-  print_steps(*simulation, time.integrator, euler_limit, verdict);
+  print_steps(*simulation, time.integrator, euler_limit, verdict, plan);
   print_cost(*simulation, verdict);
   // A run's own words for the refusal.
   simulation.reset();

@@ -42,7 +42,7 @@ constexpr int most_shapes = 64;
 
 // Option texts as they were typed; read after CLI11 has sorted them.
 struct Texts {
-  std::string scene, folder, integrator, step, tolerance, duration, frame_rate, threads;
+  std::string scene, folder, integrator, step, tolerance, accuracy, duration, frame_rate, threads;
   std::string size, color, range, backend, sheet;
   std::string kernel, csv, budget;
   bool vtu = false, force = false, quiet = false, allow_unstable = false, no_energies = false;
@@ -52,7 +52,8 @@ void add_time_options(CLI::App& command, Texts& texts) {
   const char* group = "Time (default: as the scene says)";
   command
       .add_option("--integrator", texts.integrator,
-                  "rk4, euler, exponential or implicit (stiff bodies); a scene's default is\nrk4")
+                  "rk4, euler, exponential or implicit (stiff bodies); a scene's default is\nrk4, or what "
+                  "its accuracy makes of it")
       ->type_name("NAME")
       ->group(group);
   command
@@ -66,6 +67,12 @@ void add_time_options(CLI::App& command, Texts& texts) {
       .add_option("--tolerance", texts.tolerance,
                   "relative error of the run, integrator exponential only, 1e-13 to 0.1;\n"
                   "default 1e-10")
+      ->type_name("NUMBER")
+      ->group(group);
+  command
+      .add_option("--accuracy", texts.accuracy,
+                  "error at the outputs, 1e-13 to 0.1: step or tolerance, and where none is\n"
+                  "named the integrator too, are chosen for it; see check")
       ->type_name("NUMBER")
       ->group(group);
   command.add_option("--duration", texts.duration, "seconds to simulate")->type_name("NUMBER")->group(group);
@@ -275,6 +282,13 @@ Options read_values(const Texts& texts, const CLI::App& command) {
   if (given("--integrator")) options.integrator = integrator_kind("--integrator", texts.integrator);
   if (given("--step")) options.step = step_value("--step", texts.step);
   if (given("--tolerance")) options.tolerance = tolerance_value("--tolerance", texts.tolerance);
+  if (given("--accuracy")) options.accuracy = accuracy_value("--accuracy", texts.accuracy);
+  for (const char* other : {"--step", "--tolerance"}) {
+    if (options.accuracy && given(other))
+      throw Failure(ExitCode::usage,
+                    fmt::format("--accuracy '{}' and {}: one of them decides, leave out the other",
+                                texts.accuracy, other));
+  }
   if (given("--duration")) options.duration = positive_number("--duration", texts.duration, "seconds");
   if (given("--frame-rate"))
     options.frame_rate = positive_number("--frame-rate", texts.frame_rate, "outputs per second");

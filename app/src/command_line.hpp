@@ -33,6 +33,7 @@ struct Options {
   std::optional<rheo::IntegratorKind> integrator;
   std::optional<double> step;       // [s]; 0: auto
   std::optional<double> tolerance;  // integrator exponential only
+  std::optional<double> accuracy;
   std::optional<double> duration;
   std::optional<double> frame_rate;
   std::optional<rheo::ColorBy> color;

@@ -33,6 +33,10 @@ inline double memory_need(const rheo::Scene& scene, const Options& options) {
   const double nodes = scene.mesh.node_count();
   double need = nodes * (scene.material.mass == rheo::Mass::lumped ? 900.0 : 2700.0);
   if (scene.time.integrator == rheo::IntegratorKind::implicit) need = implicit_need(scene);
+  if (scene.time.accuracy > 0.0 && scene.time.integrator != rheo::IntegratorKind::exponential) {
+    // Two trial runs side by side, whose states at the outputs may be kept (trial_runs.cpp).
+    need += need + 2.0 * std::min(128e6, 64.0 * nodes * static_cast<double>(rheo::output_count(scene.time)));
+  }
   if (options.command == Command::render) {
     const double pixels = static_cast<double>(scene.picture.size[0]) * scene.picture.size[1];
     // Frame buffers of 4 samples with depth, and two pictures for every encoder.

@@ -95,13 +95,23 @@ double positive_number(const std::string& option, const std::string& text, const
   return *value;
 }
 
-double tolerance_value(const std::string& option, const std::string& text) {
+namespace {
+
+double number_between(const std::string& option, const std::string& text, double low, double high) {
   const std::optional<double> value = whole_text<double>(text);
-  if (!value || !(*value >= rheo::finest_tolerance && *value <= rheo::coarsest_tolerance))
-    refuse(
-        option, text,
-        fmt::format("must be a number from {:g} to {:g}", rheo::finest_tolerance, rheo::coarsest_tolerance));
+  if (!value || !(*value >= low && *value <= high))
+    refuse(option, text, fmt::format("must be a number from {:g} to {:g}", low, high));
   return *value;
+}
+
+}  // namespace
+
+double tolerance_value(const std::string& option, const std::string& text) {
+  return number_between(option, text, rheo::finest_tolerance, rheo::coarsest_tolerance);
+}
+
+double accuracy_value(const std::string& option, const std::string& text) {
+  return number_between(option, text, rheo::finest_accuracy, rheo::coarsest_accuracy);
 }
 
 double step_value(const std::string& option, const std::string& text) {

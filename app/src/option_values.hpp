@@ -13,6 +13,7 @@ namespace app {
 double positive_number(const std::string& option, const std::string& text, const std::string& unit);
 double step_value(const std::string& option, const std::string& text);  // "auto": 0
 double tolerance_value(const std::string& option, const std::string& text);
+double accuracy_value(const std::string& option, const std::string& text);
 int whole_number(const std::string& option, const std::string& text, int low, int high);
 std::array<int, 2> picture_size(const std::string& option, const std::string& text);
 ColorRange color_range(const std::string& option, const std::string& text);

@@ -11,8 +11,17 @@ namespace app {
 rheo::Scene load_scene(const Options& options) {
   rheo::Scene scene = rheo::read_scene(options.scene);
   if (options.integrator) scene.time.integrator = *options.integrator;
+  // What the command line says of the step, the tolerance or the accuracy stands for all that the scene says.
+  if (options.step || options.tolerance) scene.time.accuracy = 0.0;
   if (options.step) scene.time.step = *options.step;
-  if (options.step || options.integrator) scene.time.where.clear();  // what is wrong now is not the file's
+  if (options.accuracy) {
+    scene.time.accuracy = *options.accuracy;
+    scene.time.step = 0.0;
+  }
+  if (scene.time.accuracy == 0.0 && scene.time.integrator == rheo::IntegratorKind::automatic)
+    scene.time.integrator = rheo::IntegratorKind::rk4;
+  if (options.step || options.integrator || options.accuracy)
+    scene.time.where.clear();  // what is wrong now is not the file's
   if (options.tolerance) {
     if (scene.time.integrator != rheo::IntegratorKind::exponential) {
       throw Failure(ExitCode::usage,

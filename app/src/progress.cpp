@@ -71,4 +71,13 @@ void Progress::clear_bar() {
   bar_shown_ = false;
 }
 
+std::function<void(int, double)> trial_runs_on(Progress& progress) {
+  return [&progress, shown = 0](int trial, double done) mutable {
+    constexpr std::int64_t hundredths = 100;
+    if (trial != shown) progress.begin(fmt::format("trial run {}", trial), hundredths);
+    shown = trial;
+    progress.update(static_cast<std::int64_t>(done * hundredths));
+  };
+}
+
 }  // namespace app

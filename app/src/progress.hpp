@@ -7,6 +7,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 namespace app {
@@ -36,5 +37,8 @@ class Progress {
   std::int64_t total_ = 0;
   std::chrono::steady_clock::time_point start_, shown_;
 };
+
+// For SimulationOptions::planning: a phase a trial run.
+std::function<void(int, double)> trial_runs_on(Progress& progress);
 
 }  // namespace app

@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
-#include "rheo/simulation.hpp"
+#include "option_values.hpp"
 
 namespace app {
 namespace {
@@ -53,6 +54,38 @@ std::vector<std::string> run_notes(const rheo::Scene& scene) {
   if (time.duration - last > 1e-9 * time.duration)
     notes.push_back(fmt::format("outputs end at t = {:.6g} s, state.csv is at the duration {:.6g} s", last,
                                 time.duration));
+  return notes;
+}
+
+std::string plan_text(const rheo::AccuracyPlan& plan) {
+  const std::string setting = plan.step > 0.0
+                                  ? fmt::format("steps of at most {:.4g} s", plan.step / plan.refinement)
+                                  : fmt::format("tolerance {:.3g}", plan.tolerance);
+  const std::string trials =
+      plan.trial_evaluations > 0.0
+          ? fmt::format("; trial runs took {:.0f} force evaluations", plan.trial_evaluations)
+          : "";
+  return fmt::format("{:g} asked for: {} ({}), {}, estimated error {:.2g}, about {:.0f} force evaluations{}",
+                     plan.accuracy, name_of(plan.integrator), plan.why, setting, plan.estimate,
+                     plan.evaluations, trials);
+}
+
+std::vector<std::string> plan_notes(const rheo::Simulation& simulation,
+                                    const rheo::SimulationOptions& options) {
+  std::vector<std::string> notes;
+  if (!simulation.plan()) return notes;
+  notes.push_back("accuracy " + plan_text(*simulation.plan()));
+  const rheo::Energies energies = simulation.energies();
+  const bool no_work = std::isnan(energies.work), no_dissipated = std::isnan(energies.dissipated);
+  if (options.energies && (no_work || no_dissipated)) {
+    notes.push_back(
+        fmt::format("history.csv's {} of energy stay{} empty with the integrator {}; integrator rk4 fills "
+                    "them",
+                    no_work && no_dissipated ? "columns dissipated and work"
+                    : no_work                ? "column work"
+                                             : "column dissipated",
+                    no_work && no_dissipated ? "" : "s", name_of(simulation.plan()->integrator)));
+  }
   return notes;
 }
 

@@ -23,17 +23,31 @@ Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
+Json plan_of(const std::optional<rheo::AccuracyPlan>& plan) {
+  if (!plan) return nullptr;
+  return {{"accuracy", plan->accuracy},
+          {"integrator", name_of(plan->integrator)},
+          {"step", plan->step > 0.0 ? Json(plan->step / plan->refinement) : Json(nullptr)},
+          {"tolerance", plan->tolerance > 0.0 ? Json(plan->tolerance) : Json(nullptr)},
+          {"estimated_error", plan->estimate},
+          {"force_evaluations", plan->evaluations},
+          {"trial_force_evaluations", plan->trial_evaluations},
+          {"why", plan->why}};
+}
+
 Json settings_of(const Options& options, const rheo::Simulation& simulation, const RunReport& report) {
   const rheo::TimeSettings& time = simulation.scene().time;
   Json json;
   json["integrator"] = name_of(time.integrator);
   json["kernel"] = simulation.kernel();
   json["step_asked"] = time.step > 0.0 ? Json(time.step) : Json("auto");
+  if (simulation.plan()) json["step_asked"] = "auto";
   json["step_bound"] = number(simulation.step_bound());
   json["largest_step"] = number(simulation.largest_step());
   json["stable_step"] = number(simulation.stable_step());
   json["tolerance"] =
       time.integrator == rheo::IntegratorKind::exponential ? Json(time.tolerance) : Json(nullptr);
+  json["plan"] = plan_of(simulation.plan());
   json["duration"] = time.duration;
   json["frame_rate"] = time.frame_rate;
   json["threads"] = simulation.threads();

@@ -3,10 +3,9 @@
 //   rheo, compiler, build_type, toolchain, libraries, command_line, working_directory, scene_file, scene (its
 //   text), read_files (path, bytes, fnv1a_64 of each file that the scene names), title
 //   settings: integrator, kernel (csr, edge or element), step_asked (seconds or "auto"), step_bound,
-//   largest_step (used), stable_step, tolerance (exponential only), duration, frame_rate, threads,
-//   encoder_threads, renderer
-//   mesh: nodes, triangles
-//   outputs; files; counters; seconds by phase; notes; warnings; exit_status; divergence or null
+//   largest_step (used), stable_step, tolerance (exponential only), plan (of an accuracy: as AccuracyPlan, or
+//   null), duration, frame_rate, threads, encoder_threads, renderer mesh: nodes, triangles outputs; files;
+//   counters; seconds by phase; notes; warnings; exit_status; divergence or null
 //
 // Counters: what was done, so that what a scene does not need shows as 0
 //

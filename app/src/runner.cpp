@@ -142,7 +142,10 @@ void run_scene(const Options& options) {
   for (const std::string& file : scene.files) report.read_files.push_back(fingerprint(file));
   require_memory(scene, options);
   timed.emplace(seconds.build);
-  rheo::Simulation simulation(std::move(scene), options.simulation);
+  rheo::SimulationOptions simulation_options = options.simulation;
+  simulation_options.planning = trial_runs_on(progress);
+  rheo::Simulation simulation(std::move(scene), simulation_options);
+  progress.end();
   timed.emplace(seconds.draw);
   std::optional<Sequence> sequence;
   if (options.command == Command::render) sequence.emplace(simulation.scene().picture, options);
@@ -157,6 +160,8 @@ void run_scene(const Options& options) {
   if (sequence) recorder.emplace(simulation.scene(), folder.path());
   folder.clear();
   report.notes = run_notes(simulation.scene());
+  for (std::string& note : plan_notes(simulation, options.simulation))
+    report.notes.push_back(std::move(note));
   for (const std::string& note : report.notes) progress.line("note: " + note);
   HistoryFile history(folder.file("history.csv"), simulation.scene());
   LinearityWatch watch(progress);

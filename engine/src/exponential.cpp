@@ -43,54 +43,42 @@ Exponential::Exponential(std::size_t size, const ExponentialSettings& settings)
       scale_(most_parts, 0.0),
       peak_(most_parts),
       rest_(most_parts),
+      size_(most_parts, 0.0),
+      size_before_(most_parts, 0.0),
+      sum_size_(most_parts, 0.0),
       sum_scale_(most_parts) {
   assert(settings.frequency >= 0.0 && settings.rate >= 0.0 && settings.tolerance > 0.0);
 }
 
-int Exponential::parts_of(double h, Axis& axis) const {
+Exponential::Plan Exponential::plan_along(Axis axis, double h, int parts) {
   const double half = 0.5 * settings_.rate;
-  const double frequency = settings_.frequency;
-  const double imaginary = std::ceil(
-      std::max({1.0, h * half / (widest * shortening_), h * frequency / (longest_z * shortening_)}));
-  const double real = std::ceil(
-      std::max({1.0, h * frequency / (2.0 * widest * shortening_), h * half / (longest_real * shortening_)}));
-  const double digits = -std::log(settings_.tolerance);
-  const double cost_imaginary = imaginary * (h / imaginary * frequency + digits);
-  const double cost_real = real * (std::sqrt(2.0 * h / real * half * digits) + 0.5 * digits);
-  axis = cost_real < cost_imaginary ? Axis::real : Axis::imaginary;
-  return static_cast<int>(std::min(axis == Axis::real ? real : imaginary, 1e9));
-}
-
-void Exponential::make_plan(double h, int parts, Axis axis) {
-  if (h == planned_for_ && parts == planned_parts_) return;
-  planned_for_ = h;
-  planned_parts_ = parts;
-  const double half = 0.5 * settings_.rate;
-  Plan& p = plan_;
+  const double length = h / parts;
+  Plan p;
+  p.parts = parts;
   p.axis = axis;
   p.tolerance = std::max(settings_.tolerance / parts, 0.1 * rounding);
   double across = 0.0;
   // A radius above the box only adds terms; z >= 1 keeps the recurrence well scaled.
   if (axis == Axis::imaginary) {
-    p.shift = settings_.rate * h > negligible_rate ? half : 0.0;
-    p.radius = std::max(settings_.frequency, 1.0 / h);
+    p.shift = settings_.rate * length > negligible_rate ? half : 0.0;
+    p.radius = std::max(settings_.frequency, 1.0 / length);
     across = p.shift > 0.0 ? half : settings_.rate;
   } else {
     p.shift = half;
-    p.radius = std::max(half, 1.0 / h);
+    p.radius = std::max(half, 1.0 / length);
     across = settings_.frequency;
   }
   const double slope = across / p.radius;
   p.growth = slope + std::sqrt(1.0 + slope * slope);
 
-  const double z = p.radius * h;
+  const double z = p.radius * length;
   double damping = 1.0;
   if (axis == Axis::imaginary) {
     bessel_j(z, coefficients_);
-    damping = std::exp(-p.shift * h);
+    damping = std::exp(-p.shift * length);
   } else {
     bessel_i_scaled(z, coefficients_);
-    damping = std::exp((p.radius - p.shift) * h);
+    damping = std::exp((p.radius - p.shift) * length);
   }
   for (std::size_t k = 0; k < most_terms; ++k) {
     const bool negative = axis == Axis::real && k / 2 % 2 == 1;
@@ -103,6 +91,33 @@ void Exponential::make_plan(double h, int parts, Axis axis) {
   std::size_t first = 1;
   while (first + 1 < most_terms && remainders_[first + 1] > p.tolerance) ++first;
   p.first_look = first;
+  double grown = std::pow(p.growth, static_cast<double>(first));
+  for (p.last_look = first; p.last_look + 1 < most_terms; ++p.last_look, grown *= p.growth) {
+    if (grown * remainders_[p.last_look + 1] <= p.tolerance) break;
+  }
+  return p;
+}
+
+void Exponential::make_plan(double h) {
+  if (h == planned_for_) return;
+  planned_for_ = h;
+  const double half = 0.5 * settings_.rate;
+  const double frequency = settings_.frequency;
+  const auto parts = [](double x, double y) {
+    return static_cast<int>(std::min(std::ceil(std::max({1.0, x, y})), 1e9));
+  };
+  const int imaginary = parts(h * half / (widest * shortening_), h * frequency / (longest_z * shortening_));
+  const int real =
+      parts(h * frequency / (2.0 * widest * shortening_), h * half / (longest_real * shortening_));
+  const auto cost = [](const Plan& p) { return static_cast<double>(p.last_look) * p.parts; };
+  const Plan along_real = plan_along(Axis::real, h, real);
+  plan_ = plan_along(Axis::imaginary, h, imaginary);
+  if (cost(along_real) < cost(plan_)) plan_ = plan_along(Axis::real, h, real);
+}
+
+double Exponential::forecast(double h) {
+  make_plan(h);
+  return static_cast<double>(plan_.first_look) * plan_.parts;
 }
 
 void Exponential::advance(LinearOperator& op, double t, double h, std::size_t k, std::span<const double> v,
@@ -121,38 +136,63 @@ void Exponential::advance(LinearOperator& op, double t, double h, std::size_t k,
   std::swap(c_, c_before_);
 }
 
-void Exponential::include(std::span<const StatePart> parts, double factor, std::span<const double> x,
-                          std::vector<double>& largest) {
+void Exponential::measure(std::span<const StatePart> parts, std::span<const double> x,
+                          std::vector<double>& sizes) {
   std::size_t begin = 0;
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    const double size = factor * norm(x.data() + begin, parts[p].size);
-    if (!(size <= largest[p])) largest[p] = size;  // NaN stays
+    sizes[p] = norm(x.data() + begin, parts[p].size);
     begin += parts[p].size;
   }
+}
+
+// largest[p] = max(largest[p], factor sizes[p]); NaN stays.
+void Exponential::include(double factor, const std::vector<double>& sizes, std::vector<double>& largest) {
+  for (std::size_t p = 0; p < largest.size(); ++p) {
+    if (!(factor * sizes[p] <= largest[p])) largest[p] = factor * sizes[p];
+  }
+}
+
+std::size_t Exponential::first_look(std::span<const StatePart> parts) const {
+  double size = 0.0;
+  for (std::size_t p = 0; p < parts.size(); ++p) {
+    if (scale_[p] > 0.0) size = std::max(size, std::max(size_[p], size_before_[p]) / scale_[p]);
+  }
+  const double allowed = plan_.tolerance / (size > 0.0 ? std::min(size, 1.0) : 1.0);
+  std::size_t first = 1;
+  while (first + 1 < plan_.first_look && remainders_[first + 1] > allowed) ++first;
+  return first;
 }
 
 Exponential::Outcome Exponential::judge(std::span<const StatePart> parts, std::size_t k) {
   const double factor = plan_.growth * remainders_[k + 1];
   std::fill(rest_.begin(), rest_.end(), 0.0);
-  include(parts, factor, a_, rest_);
-  include(parts, factor, b_, rest_);
-  std::copy(scale_.begin(), scale_.end(), sum_scale_.begin());
-  include(parts, 1.0, sum_, sum_scale_);
+  include(factor, size_, rest_);
+  include(factor, size_before_, rest_);
+  const auto small_enough = [&](const std::vector<double>& scale) {
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      if (!(rest_[p] <= plan_.tolerance * parts[p].share * scale[p])) return false;
+    }
+    return true;
+  };
   // Terms that outgrow the sum take its digits with them by rounding, whatever is left out. (Not by share: a
   // part that mixes sizes rounds as its largest, with any terms.)
-  const double lost_to_rounding = rounding / (0.1 * std::max(settings_.tolerance, 1e-12));
-  Outcome outcome = Outcome::done;
+  const auto well_rounded = [&](const std::vector<double>& scale) {
+    const double lost_to_rounding = rounding / (0.1 * std::max(settings_.tolerance, 1e-12));
+    for (std::size_t p = 0; p < parts.size(); ++p) {
+      if (!(lost_to_rounding * peak_[p] <= scale[p])) return false;
+    }
+    return true;
+  };
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    const double size = parts[p].share * sum_scale_[p];
-    if (std::isnan(rest_[p])) return Outcome::lost;
-    if (!(rest_[p] <= plan_.tolerance * size)) outcome = Outcome::more;
+    if (!std::isfinite(rest_[p])) return Outcome::lost;
   }
-  if (outcome == Outcome::more) return outcome;
-  for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (!(lost_to_rounding * peak_[p] <= sum_scale_[p])) return Outcome::lost;
-  }
-  std::swap(scale_, sum_scale_);
-  return Outcome::done;
+  // The sum itself is looked at only where the sizes so far do not settle it.
+  if (small_enough(scale_) && well_rounded(scale_)) return Outcome::done;
+  measure(parts, sum_, sum_size_);
+  std::copy(scale_.begin(), scale_.end(), sum_scale_.begin());
+  include(1.0, sum_size_, sum_scale_);
+  if (!small_enough(sum_scale_)) return Outcome::more;
+  return well_rounded(sum_scale_) ? Outcome::done : Outcome::lost;
 }
 
 bool Exponential::expand(LinearOperator& op, double t, double h, std::span<const double> y,
@@ -161,7 +201,8 @@ bool Exponential::expand(LinearOperator& op, double t, double h, std::span<const
   const StatePart whole{size, 1.0};
   const std::span<const StatePart> parts = op.parts().empty() ? std::span(&whole, 1) : op.parts();
   assert(parts.size() <= most_parts);
-  include(parts, 1.0, y, scale_);
+  measure(parts, y, size_before_);
+  include(1.0, size_before_, scale_);
   std::fill(peak_.begin(), peak_.end(), 0.0);
   c_ = {1.0, 0.0, 0.0, 0.0};
   c_before_ = {};
@@ -176,24 +217,49 @@ bool Exponential::expand(LinearOperator& op, double t, double h, std::span<const
   }
   for (std::size_t i = 0; i < size; ++i) sum_[i] = coefficients_[0] * y[i] + coefficients_[1] * a_[i];
   std::copy(y.begin(), y.end(), b_.begin());
+  measure(parts, a_, size_);
 
-  std::size_t look = first_look_at_size;
-  for (std::size_t k = 1; k + 3 < most_terms; k += 2) {
-    if (k >= look) {
-      const double factor = std::max(std::abs(coefficients_[k]), std::abs(coefficients_[k - 1]));
-      include(parts, factor, a_, peak_);
-      include(parts, factor, b_, peak_);
-      look += look < 4 * first_look_at_size ? first_look_at_size : 2 * first_look_at_size;
+  const std::size_t first = first_look(parts);
+  std::size_t peak_look = first_look_at_size;
+  std::size_t measured = 1;  // size_ and size_before_ are those of V_k and V_{k-1} for this k
+  std::span<double> v = a_, before = b_;
+  for (std::size_t k = 1; k + 2 < most_terms;) {
+    const bool looks = k >= first;
+    if (looks || k >= peak_look) {
+      if (measured + 1 == k) {
+        std::swap(size_, size_before_);
+        measure(parts, v, size_);
+      } else if (measured != k) {
+        measure(parts, before, size_before_);
+        measure(parts, v, size_);
+      }
+      measured = k;
     }
-    if (k >= plan_.first_look) {
+    if (k >= peak_look) {
+      const double factor = std::max(std::abs(coefficients_[k]), std::abs(coefficients_[k - 1]));
+      include(factor, size_, peak_);
+      include(factor, size_before_, peak_);
+      peak_look += peak_look < 4 * first_look_at_size ? first_look_at_size : 2 * first_look_at_size;
+    }
+    if (looks) {
       const Outcome outcome = judge(parts, k);
       if (outcome != Outcome::more) return outcome == Outcome::done;
     }
-    advance(op, t, h, k, a_, b_);
-    advance(op, t, h, k + 1, b_, a_);
-    const double even = coefficients_[k + 1];
-    const double odd = coefficients_[k + 2];
-    for (std::size_t i = 0; i < size; ++i) sum_[i] += even * b_[i] + odd * a_[i];
+    if (k + 2 <= first) {
+      // No look in between: both terms in one pass over the sum.
+      advance(op, t, h, k, v, before);
+      advance(op, t, h, k + 1, before, v);
+      const double even = coefficients_[k + 1];
+      const double odd = coefficients_[k + 2];
+      for (std::size_t i = 0; i < size; ++i) sum_[i] += even * before[i] + odd * v[i];
+      k += 2;
+    } else {
+      advance(op, t, h, k, v, before);
+      std::swap(v, before);
+      ++k;
+      const double next = coefficients_[k];
+      for (std::size_t i = 0; i < size; ++i) sum_[i] += next * v[i];
+    }
   }
   return false;
 }
@@ -205,11 +271,10 @@ void Exponential::step(LinearOperator& op, double t, double h, std::span<double>
   double done = 0.0;
   int retries = 0;
   while (done < h) {
-    Axis axis{};
     const double begin = done;
-    const int parts = parts_of(h - begin, axis);
+    make_plan(h - begin);
+    const int parts = plan_.parts;
     const double length = (h - begin) / parts;
-    make_plan(length, parts, axis);
     for (int k = 0; k < parts; ++k) {
       const bool fresh = begin == 0.0 && k == 0;
       if (!expand(op, t + done, length, y, fresh ? rate : std::span<const double>())) {

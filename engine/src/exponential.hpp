@@ -19,7 +19,7 @@
 // shorter step.
 //
 // Source   Tal-Ezer, 1989 (imaginary and real intervals); Bergamaschi and Vianello, 2000 (real)
-// Shapes   scale_, peak_, rest_, sum_scale_: one a part of the state
+// Shapes   scale_, peak_, rest_, ... sum_scale_: one a part of the state
 // Errors   converged() is false where that does not help: y stays at the last part of the step that was well
 // Not here constraints by Baumgarte (their forcing is not a cubic)
 #pragma once
@@ -41,22 +41,28 @@ class Exponential final : public Integrator {
   bool converged() const override { return converged_; }
   std::string_view name() const override { return "exponential"; }
 
+  // Evaluations that a step of h takes where its terms do not grow.
+  double forecast(double h);
+
  private:
   enum class Axis { imaginary, real };
 
-  // How one part of a step of a given length is done.
+  // How a step of a given length is done: in equal parts, each by one sum.
   struct Plan {
+    int parts = 1;
     Axis axis = Axis::imaginary;
     double radius = 0.0;         // R
     double shift = 0.0;          // s
     double growth = 1.0;         // of |V_k| from k to k + 1 at most, in the box's middle
     double tolerance = 0.0;      // of one part
     std::size_t first_look = 1;  // k from which the remainder may be small enough
+    std::size_t last_look = 1;   // k at which it is, if all terms grow as they may
   };
 
-  // How many equal parts a step of h takes, and along which axis.
-  int parts_of(double h, Axis& axis) const;
-  void make_plan(double h, int parts, Axis axis);
+  // The cheaper axis for a step of h, its coefficients and remainders; nothing where it is that of the step
+  // before.
+  void make_plan(double h);
+  Plan plan_along(Axis axis, double h, int parts);
   // y -> y(t + h) in sum_; false where the terms do not settle.
   bool expand(LinearOperator& op, double t, double h, std::span<const double> y,
               std::span<const double> rate);
@@ -64,16 +70,17 @@ class Exponential final : public Integrator {
   void advance(LinearOperator& op, double t, double h, std::size_t k, std::span<const double> v,
                std::span<double> before);
   enum class Outcome { more, done, lost };
-  // Of the sum up to V_k, where a_ and b_ hold V_k and V_{k-1}.
+  // Of the sum up to V_k, given the sizes of V_k and V_{k-1}.
   Outcome judge(std::span<const StatePart> parts, std::size_t k);
-  // largest[p] = max(largest[p], factor |x's part p|)
-  static void include(std::span<const StatePart> parts, double factor, std::span<const double> x,
-                      std::vector<double>& largest);
+  // From which k on the remainder may be small enough, given the sizes of V_1 and V_0.
+  std::size_t first_look(std::span<const StatePart> parts) const;
+  static void measure(std::span<const StatePart> parts, std::span<const double> x,
+                      std::vector<double>& sizes);
+  static void include(double factor, const std::vector<double>& sizes, std::vector<double>& largest);
 
   ExponentialSettings settings_;
   Plan plan_;
   double planned_for_ = 0.0;
-  int planned_parts_ = 0;
   double shortening_ = 1.0;                 // of the longest part, after a failure
   std::vector<double> coefficients_;        // of V_k, signs and exp(-H s) included
   std::vector<double> remainders_;          // sum over j >= k of |coefficient_j| growth^(j - k)
@@ -81,7 +88,9 @@ class Exponential final : public Integrator {
   std::array<double, 4> c_{}, c_before_{};  // of V_k and V_{k-1}: c_j / H^j
   std::vector<double> scale_;               // size of y so far
   std::vector<double> peak_;                // of the terms of this sum
-  std::vector<double> rest_, sum_scale_;    // of what is left out, of the sum
+  std::vector<double> rest_;                // of what is left out
+  std::vector<double> size_, size_before_;  // of V_k, V_{k-1}
+  std::vector<double> sum_size_, sum_scale_;
   bool converged_ = true;
 };
 

@@ -86,6 +86,7 @@ std::unique_ptr<Integrator> make_integrator(IntegratorKind kind, std::size_t siz
       return std::make_unique<Exponential>(size, settings);
     case IntegratorKind::implicit:
       return std::make_unique<Implicit>(size);
+    case IntegratorKind::automatic:
     case IntegratorKind::rk4:
       break;
   }

@@ -134,13 +134,25 @@ void validate(const TimeSettings& time) {
   if (!(time.step >= 0.0) || !std::isfinite(time.step)) {
     refuse(where, fmt::format("step = {}: \"auto\" or a finite number > 0 (s) is needed", time.step));
   }
+  if (!(time.refinement >= 1.0) || !std::isfinite(time.refinement))
+    refuse(where, fmt::format("refinement = {}: a finite number >= 1 is needed", time.refinement));
   if (!(time.tolerance >= finest_tolerance && time.tolerance <= coarsest_tolerance)) {
     refuse(where, fmt::format("tolerance = {}: {:g} to {:g} is allowed", time.tolerance, finest_tolerance,
                               coarsest_tolerance));
   }
-  if (time.step > 0.0 && !(time.duration / time.step <= max_steps)) {
+  if (time.accuracy != 0.0) {
+    if (!(time.accuracy >= finest_accuracy && time.accuracy <= coarsest_accuracy)) {
+      refuse(where, fmt::format("accuracy = {}: {:g} to {:g} is allowed", time.accuracy, finest_accuracy,
+                                coarsest_accuracy));
+    }
+    if (time.step > 0.0) {
+      refuse(where, fmt::format("accuracy = {:g} and step = {:g}: one of them decides, leave out the other",
+                                time.accuracy, time.step));
+    }
+  }
+  if (time.step > 0.0 && !(time.refinement * time.duration / time.step <= max_steps)) {
     refuse(where, fmt::format("step = {}: {:.3g} steps in {} s; at most {:.0e} are allowed", time.step,
-                              time.duration / time.step, time.duration, max_steps));
+                              time.refinement * time.duration / time.step, time.duration, max_steps));
   }
 }
 

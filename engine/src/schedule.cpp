@@ -218,7 +218,7 @@ std::int64_t Schedule::planned_steps(double bound) const {
       const double event = end(interval);
       const bool passes = event <= target || same_time(event, target);
       const double stop = passes ? event : target;
-      steps += steps_in(stop - t, bound);
+      steps += steps_in(stop - t, settings.refinement, bound);
       t = stop;
       if (passes) ++interval;
     }

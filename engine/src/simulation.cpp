@@ -49,6 +49,13 @@ int fastest_node(const VectorMap& v) {
   return static_cast<int>(found);
 }
 
+// An integrator that is to be chosen without an accuracy is RK4.
+Scene decided(Scene scene, const std::optional<AccuracyPlan>& plan) {
+  if (plan) return with_plan(std::move(scene), *plan);
+  if (scene.time.integrator == IntegratorKind::automatic) scene.time.integrator = IntegratorKind::rk4;
+  return scene;
+}
+
 // The fastest kernel that the scene's mass and constraints allow, unless one is asked for.
 Assembly assembly_for(const Scene& scene, Kernel kernel) {
   const bool implicit = scene.time.integrator == IntegratorKind::implicit;
@@ -75,7 +82,8 @@ Assembly assembly_for(const Scene& scene, Kernel kernel) {
 
 struct Simulation::Impl {
   Impl(Scene&& s, const SimulationOptions& options)
-      : scene(std::move(s)),
+      : plan(s.time.accuracy != 0.0 ? std::optional(plan_accuracy(s, options)) : std::nullopt),
+        scene(decided(std::move(s), plan)),
         model(validated(scene).mesh, scene.material, assembly_for(scene, options.kernel)),
         asked(options),
         schedule(scene, model),
@@ -151,7 +159,7 @@ struct Simulation::Impl {
           name, limit));
     }
     bound = given ? settings.step : takes_long_steps() ? limit : options.stable_share * limit;
-    if (!(settings.duration / bound < most_steps)) {
+    if (!(settings.refinement * settings.duration / bound < most_steps)) {
       refuse_step(
           fmt::format("step = {}: {:g} s needs {:.2g} steps for the duration of {:g} s, at most {:g} can be "
                       "counted: check the material's moduli and density and the mesh's size",
@@ -284,10 +292,12 @@ struct Simulation::Impl {
     if (model.layout.lambda) decay(model.layout.w_lambda(), model.material.lambda_rate());
     if (model.layout.mu) decay(model.layout.w_mu(), model.material.mu_rate());
     body->load(y);
-    body->counters().steps_at_rest += steps_in(end - time, bound);
+    body->counters().steps_at_rest += steps_to(end);
     time = end;
     changed();
   }
+
+  std::int64_t steps_to(double end) const { return steps_in(end - time, scene.time.refinement, bound); }
 
   std::optional<Divergence> run_segment(double end) {
     const double start = time;
@@ -295,7 +305,7 @@ struct Simulation::Impl {
       pass_at_rest(end);
       return std::nullopt;
     }
-    const std::int64_t n = steps_in(end - start, bound);
+    const std::int64_t n = steps_to(end);
     const double h = (end - start) / static_cast<double>(n);
     largest_step = std::max(largest_step, h);
     sample_now();
@@ -372,6 +382,7 @@ struct Simulation::Impl {
     return diverged;
   }
 
+  std::optional<AccuracyPlan> plan;
   Scene scene;
   Model model;
   SimulationOptions asked;
@@ -411,6 +422,9 @@ Simulation::~Simulation() = default;
 const Scene& Simulation::scene() const {
   return impl_->scene;
 }
+const std::optional<AccuracyPlan>& Simulation::plan() const {
+  return impl_->plan;
+}
 const Spectrum& Simulation::spectrum() const {
   return impl_->spectrum;
 }
@@ -418,7 +432,7 @@ double Simulation::stable_step() const {
   return impl_->limit;
 }
 double Simulation::step_bound() const {
-  return impl_->bound;
+  return impl_->bound / impl_->scene.time.refinement;
 }
 double Simulation::largest_step() const {
   return impl_->largest_step;
@@ -509,8 +523,11 @@ ProbeReading Simulation::read(const Probe& probe) {
   for (int node : probe.nodes) {
     reading.displacement.x += u()[2 * node];
     reading.displacement.y += u()[2 * node + 1];
-    reading.force.x += impl_->reaction[2 * node] + impl_->external[2 * node];
-    reading.force.y += impl_->reaction[2 * node + 1] + impl_->external[2 * node + 1];
+    // Of the external force the tractions alone: what touches the body there.
+    const double mass = impl_->model.node_mass[node];
+    const Vec2& g = impl_->scene.body_acceleration;
+    reading.force.x += impl_->reaction[2 * node] + impl_->external[2 * node] - mass * g.x;
+    reading.force.y += impl_->reaction[2 * node + 1] + impl_->external[2 * node + 1] - mass * g.y;
   }
   reading.displacement.x /= static_cast<double>(probe.nodes.size());
   reading.displacement.y /= static_cast<double>(probe.nodes.size());

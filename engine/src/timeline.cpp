@@ -12,8 +12,10 @@ bool same_time(double a, double b) {
   return std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b));
 }
 
-std::int64_t steps_in(double length, double bound) {
-  return std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(length / bound * (1.0 - 1e-12))));
+std::int64_t steps_in(double length, double refinement, double bound) {
+  constexpr double slack = 1.0 - 1e-12;
+  const double steps = std::max(1.0, std::ceil(length / bound * slack));
+  return static_cast<std::int64_t>(std::ceil(refinement * steps * slack));
 }
 
 std::vector<double> event_times(const Scene& scene) {

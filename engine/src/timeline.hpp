@@ -17,8 +17,8 @@ std::vector<double> event_times(const Scene& scene);
 // Whether two times are the same but for rounding.
 bool same_time(double a, double b);
 
-// Steps of at most `bound` that divide a stretch of time.
-std::int64_t steps_in(double length, double bound);
+// Equal steps that divide a stretch of time: `refinement` times those of at most `bound`.
+std::int64_t steps_in(double length, double refinement, double bound);
 
 inline bool is_active(const Window& window, double t) {
   return window.from <= t && t < window.until;

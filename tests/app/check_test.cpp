@@ -124,6 +124,18 @@ TEST_F(Check, TellsTheImplicitIntegratorsFactor) {
   EXPECT_THAT(row(finished.out, "cost"), HasSubstr("forecast"));
 }
 
+TEST_F(Check, SaysWhatAnAccuracyComesTo) {
+  write("beam.toml", small_beam());
+  const Finished free = rheo({"check", "beam.toml", "--accuracy", "1e-6"});
+  EXPECT_EQ(free.exit_code, 0) << free.err;
+  EXPECT_EQ(row(free.out, "integrator"), "exponential");
+  EXPECT_THAT(row(free.out, "accuracy"), HasSubstr("1e-06 asked for: exponential (the cheapest"));
+  const Finished rk4 = rheo({"check", "beam.toml", "--accuracy", "1e-6", "--integrator", "rk4"});
+  EXPECT_EQ(row(rk4.out, "integrator"), "rk4");
+  EXPECT_THAT(row(rk4.out, "accuracy"), HasSubstr("estimated error"));
+  EXPECT_THAT(row(rk4.out, "step"), HasSubstr("for the accuracy"));
+}
+
 TEST_F(Check, WritesNothing) {
   write("beam.toml", small_beam());
   EXPECT_EQ(rheo({"check", "beam.toml"}).exit_code, 0);

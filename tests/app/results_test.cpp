@@ -251,6 +251,35 @@ TEST_F(Results, OfTheImplicitIntegratorCountFactorsAndSolves) {
             8 * json.at("counters").at("steps").get<std::int64_t>());
 }
 
+TEST_F(Results, OfAnAccuracyAreThatAccurateAndSayWhatWasChosen) {
+  write("beam.toml", small_beam_with("frame_rate = 20", "frame_rate = 20\naccuracy = 1e-9"));
+  const Finished chosen = rheo({"run", "beam.toml", "-o", "chosen"});
+  EXPECT_EQ(chosen.exit_code, 0) << chosen.err;
+  EXPECT_THAT(chosen.out, HasSubstr("note: accuracy 1e-09 asked for: exponential"));
+  EXPECT_THAT(chosen.out, HasSubstr("column dissipated of energy stays empty"));
+  const Finished rk4 = rheo({"run", "beam.toml", "-o", "rk4", "--integrator", "rk4"});
+  EXPECT_THAT(rk4.out, HasSubstr("note: accuracy 1e-09 asked for: rk4 (as asked), steps of at most"));
+  EXPECT_THAT(rk4.out, Not(HasSubstr("empty")));
+  const double one = read_table(folder() / "chosen/state.csv")["ux"].at(4);
+  const double other = read_table(folder() / "rk4/state.csv")["ux"].at(4);
+  EXPECT_NEAR(one, other, 1e-8 * std::abs(other));  // both within 1e-9 of the block's largest
+  const auto json = nlohmann::json::parse(read_text(folder() / "rk4/run.json"));
+  const auto& settings = json.at("settings");
+  EXPECT_EQ(settings.at("integrator"), "rk4");
+  EXPECT_EQ(settings.at("step_asked"), "auto");
+  EXPECT_EQ(settings.at("plan").at("accuracy"), 1e-9);
+  EXPECT_LE(settings.at("plan").at("estimated_error").get<double>(), 1e-9);
+  EXPECT_GT(settings.at("plan").at("trial_force_evaluations").get<double>(), 0.0);
+  EXPECT_LE(settings.at("largest_step").get<double>(),
+            settings.at("step_bound").get<double>() * (1.0 + 1e-9));
+  // The command line's word stands for the scene's.
+  const Finished stepped = rheo({"run", "beam.toml", "-o", "stepped", "--step", "1e-3"});
+  EXPECT_EQ(stepped.exit_code, 0) << stepped.err;
+  const auto plain = nlohmann::json::parse(read_text(folder() / "stepped/run.json"));
+  EXPECT_TRUE(plain.at("settings").at("plan").is_null());
+  EXPECT_EQ(plain.at("settings").at("step_asked"), 1e-3);
+}
+
 TEST_F(Results, AreListedAtTheEndAndNothingIsSaidWhenQuiet) {
   write("beam.toml", small_beam());
   const Finished spoken = rheo({"run", "beam.toml", "-o", "a", "--vtu"});

@@ -236,5 +236,26 @@ TEST(Simulation, FollowsTheSameCourseWhateverTheCallsBetween) {
   for (std::size_t i = 0; i < once.u().size(); ++i) EXPECT_EQ(once.u()[i], pieces.u()[i]);
 }
 
+// A body that hangs at rest pulls at its clamp with all of its weight, that of the clamped nodes too.
+TEST(Probe, OfAClampReadsTheWeightThatHangsOnIt) {
+  for (Mass mass : {Mass::lumped, Mass::consistent}) {
+    for (ConstraintMethod method : {ConstraintMethod::automatic, ConstraintMethod::baumgarte}) {
+      Scene scene;
+      scene.mesh = rectangle({0.1, 0.1}, 3, 3);
+      scene.material = {4e4, 2e4, forever, 2e2, 1000, mass};
+      scene.body_acceleration = {0.0, -9.81};
+      scene.fixes.push_back({nodes_of(scene.mesh.edge_groups.at("top")), Axis::both, {}, ""});
+      scene.time.duration = 2.0;
+      scene.time.constraints = method;
+      Simulation simulation(scene);
+      ASSERT_FALSE(simulation.advance(2.0));
+      const ProbeReading reading = simulation.read({"top", scene.fixes[0].nodes, {}, ""});
+      // Shear relaxes within 10 ms, and with it nearly all vibration.
+      EXPECT_NEAR(reading.force.y, 0.1 * 0.1 * 1000 * 9.81, 1e-3);
+      EXPECT_NEAR(reading.force.x, 0.0, 1e-3);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rheo::test

@@ -111,10 +111,12 @@ DenseMatrices dense_matrices(const Mesh& mesh, const Material& material) {
   return m;
 }
 
-MatrixXd full_operator(const DenseMatrices& m, const Material& material, const MatrixXd& constraints,
+MatrixXd full_operator(const DenseMatrices& m, const Material& material, const MatrixXd& unscaled,
                        double omega) {
   const Eigen::Index d = m.mass.rows();
-  const Eigen::Index c = constraints.cols();
+  const Eigen::Index c = unscaled.cols();
+  // Of the masses' size, or a pivot of heavy or light bodies would pass for rounding.
+  const MatrixXd constraints = m.mass.maxCoeff() * unscaled;
   // v' and the multipliers from [M -A; -A^T 0] (v', L) = (-J w, A^T (2 omega v + omega^2 u)).
   MatrixXd kkt = MatrixXd::Zero(d + c, d + c);
   kkt.topLeftCorner(d, d) = m.mass;
@@ -244,8 +246,9 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
     for (Eigen::Index k = 1; k < extra; ++k) full(4 * d + k, 4 * d + k - 1) = 1.0 / length;
     MatrixXd kkt = MatrixXd::Zero(d + count, d + count);
     kkt.topLeftCorner(d, d) = matrices_.mass;
-    kkt.topRightCorner(d, count) = -a;
-    kkt.bottomLeftCorner(count, d) = -a.transpose();
+    const double weight = matrices_.mass.maxCoeff();  // as in full_operator
+    kkt.topRightCorner(d, count) = -weight * a;
+    kkt.bottomLeftCorner(count, d) = -weight * a.transpose();
     const Eigen::FullPivLU<MatrixXd> lu(kkt);
     for (Eigen::Index k = 0; k < extra; ++k) {  // k-th derivative of the forcing at t0
       VectorXd right = VectorXd::Zero(d + count);
@@ -276,14 +279,27 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
       for (Eigen::Index j = 0; j < count; ++j) {
         const auto& b = rows[j].b;
         const auto derivative = [&](Eigen::Index order) { return order < 6 ? b[order] : 0.0; };
-        right[d + j] = -(derivative(k + 2) + 2 * omega * derivative(k + 1) + omega * omega * derivative(k));
+        right[d + j] =
+            -weight * (derivative(k + 2) + 2 * omega * derivative(k + 1) + omega * omega * derivative(k));
       }
       full.block(d, 4 * d + k, d, 1) = std::pow(length, k) * lu.solve(right).head(d);
     }
     VectorXd z = VectorXd::Zero(4 * d + extra);
     z.head(4 * d) = y;
     z[4 * d] = 1.0;
-    y = (length * full).exp().topRows(4 * d) * z;
+    // Squaring loses digits where entries of very different sizes meet: numbers of one size instead, v over a
+    // frequency, w over a modulus.
+    const double modulus = std::max(s.material.lambda_ela, s.material.mu_ela);
+    const double frequency =
+        std::max(1.0 / length, std::sqrt(modulus * full.block(d, 2 * d, d, 2 * d).cwiseAbs().maxCoeff()));
+    VectorXd unit = VectorXd::Ones(4 * d + extra);
+    unit.segment(d, d).setConstant(frequency);
+    unit.segment(2 * d, 2 * d).setConstant(modulus);
+    const double forcing = full.block(d, 4 * d, d, extra).cwiseAbs().maxCoeff() / (frequency * frequency);
+    if (forcing > 0.0) unit.head(4 * d) *= forcing;
+    full = unit.cwiseInverse().asDiagonal() * full * unit.asDiagonal();
+    y = unit.head(4 * d).asDiagonal() *
+        ((length * full).exp().topRows(4 * d) * unit.cwiseInverse().cwiseProduct(z)).eval();
   }
 }
 

@@ -179,6 +179,12 @@ TEST_P(BadSceneValue, IsNamedWithWhatIsAllowed) {
       << text;
 }
 
+TEST(BadScene, AccuracyBesideAStep) {
+  EXPECT_THAT(
+      refusal_with(46, "step = 1e-3\naccuracy = 1e-6"),
+      AllOf(StartsWith("bad.toml:47: [time] accuracy = "), HasSubstr("step = 0.001 decides already")));
+}
+
 INSTANTIATE_TEST_SUITE_P(
     WrongType, BadSceneValue,
     ::testing::Values(
@@ -231,6 +237,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{45, "integrator = 4", "integrator = 4: \"rk4\", \"euler\", \"exponential\" or \"implicit\""},
         BadValue{46, "step = \"small\"", "step = \"small\": \"auto\" or a finite number > 0 (s)"},
         BadValue{46, "step = [1]", "\"auto\" or a finite number > 0 (s)"},
+        BadValue{46, "accuracy = \"fine\"", "accuracy = \"fine\": a finite number >= 1e-13 and <= 0.1"},
+        BadValue{46, "accuracy = 1e-14", "accuracy = 1e-14: a finite number >= 1e-13 and <= 0.1"},
+        BadValue{46, "accuracy = 0.2", "accuracy = 0.2: a finite number >= 1e-13 and <= 0.1"},
         BadValue{47, "baumgarte = \"20\"", "a finite number >= 0 (1/s)"},
         BadValue{48, "constraints = 1", "\"auto\" or \"baumgarte\""},
         BadValue{50, "color = 1", "\"w_lambda\", \"w_mu\", \"w\", \"speed\" or \"none\""},

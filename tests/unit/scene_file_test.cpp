@@ -52,8 +52,9 @@ TEST(SceneFile, DefaultsAreAsDocumented) {
   EXPECT_THAT(scene.fixes, IsEmpty());
   EXPECT_EQ(scene.time.duration, 5.0);
   EXPECT_EQ(scene.time.frame_rate, 60.0);
-  EXPECT_EQ(scene.time.integrator, IntegratorKind::rk4);
+  EXPECT_EQ(scene.time.integrator, IntegratorKind::automatic);
   EXPECT_EQ(scene.time.step, 0.0);
+  EXPECT_EQ(scene.time.accuracy, 0.0);
   EXPECT_EQ(scene.time.baumgarte, 20.0);
   EXPECT_EQ(scene.time.constraints, ConstraintMethod::automatic);
   EXPECT_EQ(scene.picture.color, ColorBy::w_lambda);

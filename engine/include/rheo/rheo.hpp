@@ -1,6 +1,7 @@
 // All of the engine's public headers but the file formats (rheo/io/).
 #pragma once
 
+#include "rheo/accuracy.hpp"
 #include "rheo/deformation.hpp"
 #include "rheo/dense_flow.hpp"
 #include "rheo/error.hpp"

@@ -91,7 +91,13 @@ struct Probe {
   std::string where;
 };
 
-enum class IntegratorKind { rk4, euler, exponential, implicit };
+enum class IntegratorKind {
+  rk4,
+  euler,
+  exponential,
+  implicit,
+  automatic  // rk4; with an accuracy the one that is forecast to reach it in the least time
+};
 enum class ConstraintMethod {
   automatic,  // eliminate what can be, Baumgarte for the general ones
   baumgarte   // equation (4) for all of them
@@ -100,9 +106,12 @@ enum class ConstraintMethod {
 struct TimeSettings {
   double duration = 0.0;     // [s], > 0, finite
   double frame_rate = 60.0;  // outputs per second
-  IntegratorKind integrator = IntegratorKind::rk4;
+  IntegratorKind integrator = IntegratorKind::automatic;
   double step = 0.0;         // upper bound [s]; 0: a quarter of the stable limit; exponential, implicit: none
+  double refinement = 1.0;   // >= 1: so many times the steps that `step` gives, each stretch rounded up
   double tolerance = 1e-10;  // exponential: relative error of a run
+  double accuracy = 0.0;     // error at the outputs for which step or tolerance is chosen (accuracy.hpp);
+                             // 0: not asked for
   double baumgarte = 20.0;   // omega [1/s]; 0: no stabilisation, constraints hold to the rounding of A^T v
   ConstraintMethod constraints = ConstraintMethod::automatic;
   std::string where;  // for messages about the step: "beam.toml:31: [time]"
@@ -148,6 +157,8 @@ inline constexpr double coarsest_tolerance = 0.1;
 inline constexpr int fewest_factors = 2;
 inline constexpr int most_factors = 6;
 inline constexpr double factors_budget = 512e6;  // bytes
+inline constexpr double finest_accuracy = 1e-13;
+inline constexpr double coarsest_accuracy = 0.1;
 
 // The settings alone, for values that come from elsewhere than a scene file (a command line, a panel).
 void validate(const TimeSettings& time);

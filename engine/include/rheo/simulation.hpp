@@ -18,6 +18,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,6 +26,7 @@
 #include <string_view>
 #include <vector>
 
+#include "rheo/accuracy.hpp"
 #include "rheo/scene.hpp"
 #include "rheo/stability.hpp"
 
@@ -84,6 +86,9 @@ struct SimulationOptions {
   bool energies = true;        // without: dissipated and work are not known (NaN), and a step costs less
   double stable_share = 0.25;  // of the stable limit: the largest step where the scene gives none
   int threads = 0;             // of edge and element; 0: as many as pay. The result does not depend on it.
+  // Where the scene asks for an accuracy: told at each output which trial run of the choice (1, 2, ...) has
+  // come how far (up to 1).
+  std::function<void(int, double)> planning = {};
 };
 
 class Simulation {
@@ -94,6 +99,10 @@ class Simulation {
   ~Simulation();
 
   const Scene& scene() const;
+
+  // Where the scene asked for an accuracy: what was chosen for it. scene().time then has the choice, and asks
+  // for none.
+  const std::optional<AccuracyPlan>& plan() const;
 
   // The stable limits (over all sets of constraints that the scene goes through) and the largest step that
   // will be used; both infinite for the exponential and the implicit integrator (then from event to event and

@@ -218,7 +218,8 @@ class SceneReader {
 
   void read_time() {
     const TableReader time = required_table(
-        "time", "duration", {"duration", "frame_rate", "integrator", "step", "baumgarte", "constraints"});
+        "time", "duration",
+        {"duration", "frame_rate", "integrator", "step", "accuracy", "baumgarte", "constraints"});
     static const std::array<std::string, 4> integrators{"rk4", "euler", "exponential", "implicit"};
     static const std::array<std::string, 2> methods{"auto", "baumgarte"};
     constexpr NumberRule seconds{.low = 0.0, .low_allowed = false, .unit = "s"};
@@ -226,12 +227,21 @@ class SceneReader {
     t.duration = time.required_number("duration", seconds, "how long the run is");
     t.frame_rate = time.number("frame_rate", {.low = 0.0, .low_allowed = false, .unit = "outputs per second"},
                                t.frame_rate);
-    t.integrator = static_cast<IntegratorKind>(time.choice("integrator", integrators, 0));
+    if (time.find("integrator") != nullptr)
+      t.integrator = static_cast<IntegratorKind>(time.choice("integrator", integrators, 0));
     if (const TomlValue* step = time.find("step"); step != nullptr && step->text != "auto") {
       if (!step->is_number() || !seconds.admits(step->number)) {
         time.refuse("step", *step, fmt::format("\"auto\" or {} is needed", seconds.allowed()));
       }
       t.step = step->number;
+    }
+    if (const TomlValue* accuracy = time.find("accuracy")) {
+      constexpr NumberRule rule{.low = finest_accuracy, .high = coarsest_accuracy};
+      t.accuracy = time.number("accuracy", rule, 0.0);
+      if (t.step > 0.0) {
+        time.refuse("accuracy", *accuracy,
+                    fmt::format("step = {:g} decides already; leave out one of the two", t.step));
+      }
     }
     t.where = time.where();
     t.baumgarte = time.number("baumgarte", {.low = 0.0, .unit = "1/s"}, t.baumgarte);
