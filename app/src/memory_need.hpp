@@ -2,8 +2,8 @@
 //
 // An estimate: about 0.9 kB a node with lumped mass, 2.7 kB with the consistent one, whose factors fill in
 // (peak resident size of `rheo check` on a rectangle of 500 x 500 nodes). The implicit integrator needs
-// matrices, 2.4 and 4.5 kB a node, and for each factor kept 81 log2(nodes) bytes a node (measured from 500 to
-// 500,000 nodes).
+// matrices, 2.4 and 4.5 kB a node, and for each factor kept at most 135 log2(nodes) bytes a node (from 500 to
+// 500,000 nodes: rectangles 52 to 107, disks 80 to 133).
 //
 // Units    bytes
 // Errors   Failure(usage): estimate, limit and what to do
@@ -24,7 +24,7 @@ namespace app {
 
 inline double implicit_need(const rheo::Scene& scene) {
   const double nodes = scene.mesh.node_count();
-  const double factor = 81.0 * std::log2(nodes) * nodes;
+  const double factor = 135.0 * std::log2(nodes) * nodes;
   return nodes * (scene.material.mass == rheo::Mass::lumped ? 2400.0 : 4500.0) +
          std::max(rheo::fewest_factors * factor, std::min(rheo::most_factors * factor, rheo::factors_budget));
 }

@@ -66,9 +66,9 @@ void require_few_general_constraints(const Scene& scene) {
 }
 
 ShiftedSystem::Factor::Factor(double shift, std::shared_ptr<const ConstraintSolver> set,
-                              std::shared_ptr<const BlockAnalysis> analysis)
-    : s(shift), constraints(std::move(set)), blocks(std::move(analysis)) {
-  const auto dofs = 2 * static_cast<std::size_t>(blocks.nodes());
+                              std::unique_ptr<SparseFactor> memory)
+    : s(shift), constraints(std::move(set)), sparse(std::move(memory)) {
+  const auto dofs = 2 * static_cast<std::size_t>(sparse->pattern().nodes());
   free.resize(dofs);
   for (std::size_t i = 0; i < dofs; ++i) free[i] = constraints->is_free(i) ? 1 : 0;
   const auto& columns = constraints->columns();
@@ -80,8 +80,11 @@ ShiftedSystem::Factor::Factor(double shift, std::shared_ptr<const ConstraintSolv
 }
 
 ShiftedSystem::ShiftedSystem(const Model& model)
-    : model_(model), analysis_(std::make_shared<BlockAnalysis>(pattern_of(model))) {
-  const BlockPattern& pattern = analysis_->pattern();
+    : model_(model),
+      order_(std::make_shared<FactorOrder>(pattern_of(model))),
+      spare_(std::make_unique<SparseFactor>(order_)),
+      factor_bytes_(spare_->bytes()) {
+  const BlockPattern& pattern = order_->pattern();
   values_.resize(pattern.column.size());
   links_.resize(pattern.column.size());
   if (model.layout.lambda) copy_blocks(pattern, model.j_lambda, 0, links_);
@@ -101,14 +104,19 @@ ShiftedSystem::Found ShiftedSystem::prepare(double s,
     current_ = factors_.front().get();
     return Found::kept;
   }
-  const double affordable = factors_budget / static_cast<double>(analysis_->factor_bytes());
+  const double affordable = factors_budget / static_cast<double>(factor_bytes_);
   const double kept = std::clamp<double>(affordable, fewest_factors, most_factors);
-  while (static_cast<double>(factors_.size()) + 1.0 > kept) factors_.pop_back();
-  factors_.push_front(std::make_unique<Factor>(s, constraints, analysis_));
+  while (static_cast<double>(factors_.size()) + 1.0 > kept) {
+    spare_ = std::move(factors_.back()->sparse);
+    factors_.pop_back();
+  }
+  if (!spare_) spare_ = std::make_unique<SparseFactor>(order_);
+  factors_.push_front(std::make_unique<Factor>(s, constraints, std::move(spare_)));
   Factor& factor = *factors_.front();
   current_ = &factor;
   fill_values(factor);
-  if (factor.blocks.factor(values_) && holds_digits(factor) && factor_schur(factor)) return Found::made;
+  if (factor.sparse->factor(values_) && holds_digits(factor) && factor_schur(factor)) return Found::made;
+  spare_ = std::move(factor.sparse);
   factors_.pop_front();
   current_ = nullptr;
   return Found::failed;
@@ -121,7 +129,7 @@ void ShiftedSystem::fill_values(const Factor& factor) {
   const double lambda = s * s * material.lambda_ela / (1.0 + s * material.lambda_rate());
   const double mu = s * s * material.mu_ela / (1.0 + s * material.mu_rate());
   const bool consistent = material.mass == Mass::consistent;
-  const BlockPattern& pattern = analysis_->pattern();
+  const BlockPattern& pattern = order_->pattern();
   for (int node = 0; node < pattern.nodes(); ++node) {
     for (int p = pattern.start[node]; p < pattern.start[node + 1]; ++p) {
       const int entry = p - pattern.start[node];
@@ -145,7 +153,7 @@ void ShiftedSystem::fill_values(const Factor& factor) {
 
 bool ShiftedSystem::holds_digits(const Factor& factor) {
   // S e for e = 1 on all free degrees of freedom, from the values that were factored.
-  const BlockPattern& pattern = analysis_->pattern();
+  const BlockPattern& pattern = order_->pattern();
   for (int node = 0; node < pattern.nodes(); ++node) {
     double x = 0.0, y = 0.0;
     for (int p = pattern.start[node]; p < pattern.start[node + 1]; ++p) {
@@ -156,7 +164,7 @@ bool ShiftedSystem::holds_digits(const Factor& factor) {
     work_[2 * node] = x;
     work_[2 * node + 1] = y;
   }
-  factor.blocks.solve({work_.data(), static_cast<std::size_t>(work_.size())});
+  factor.sparse->solve({work_.data(), static_cast<std::size_t>(work_.size())});
   double largest = 0.0;
   for (Eigen::Index i = 0; i < work_.size(); ++i) largest = std::max(largest, std::abs(work_[i] - 1.0));
   return largest <= digits_needed;  // false for NaN
@@ -171,7 +179,7 @@ bool ShiftedSystem::factor_schur(Factor& factor) {
     unit[j] = 1.0;
     spread(factor, unit);
     unit[j] = 0.0;
-    factor.blocks.solve({correction_.data(), static_cast<std::size_t>(correction_.size())});
+    factor.sparse->solve({correction_.data(), static_cast<std::size_t>(correction_.size())});
     for (Eigen::Index i = 0; i < m; ++i)
       schur(i, j) = factor.constraints->row_times(factor.general[i], correction_.data());
   }
@@ -189,7 +197,7 @@ void ShiftedSystem::spread(const Factor& factor, const Vector& multipliers) {
 }
 
 void ShiftedSystem::subtract_force(std::span<const double> pull, Vector& r) const {
-  const BlockPattern& pattern = analysis_->pattern();
+  const BlockPattern& pattern = order_->pattern();
   for (int node = 0; node < pattern.nodes(); ++node) {
     const double* own = pull.data() + 4 * static_cast<std::size_t>(node);
     double lambda_x = 0.0, lambda_y = 0.0, mu_x = 0.0, mu_y = 0.0;
@@ -214,7 +222,7 @@ int ShiftedSystem::solve(Vector& r, Vector& d, Vector& target) {
   for (Eigen::Index i = 0; i < r.size(); ++i) {
     if (!factor.free[i]) r[i] = 0.0;
   }
-  factor.blocks.solve({r.data(), static_cast<std::size_t>(r.size())});
+  factor.sparse->solve({r.data(), static_cast<std::size_t>(r.size())});
   for (Eigen::Index i = 0; i < r.size(); ++i) {
     if (factor.free[i]) d[i] = r[i];
   }
@@ -223,7 +231,7 @@ int ShiftedSystem::solve(Vector& r, Vector& d, Vector& target) {
     target[static_cast<Eigen::Index>(j)] -= factor.constraints->row_times(factor.general[j], d.data());
   factor.schur.solveInPlace(target);
   spread(factor, target);
-  factor.blocks.solve({correction_.data(), static_cast<std::size_t>(correction_.size())});
+  factor.sparse->solve({correction_.data(), static_cast<std::size_t>(correction_.size())});
   d += correction_;
   return 2;
 }

@@ -25,9 +25,9 @@
 #include <span>
 #include <vector>
 
-#include "block_cholesky.hpp"
 #include "constraints.hpp"
 #include "model.hpp"
+#include "sparse_factor.hpp"
 
 namespace rheo {
 
@@ -56,17 +56,16 @@ class ShiftedSystem {
   // r is overwritten. Returns how many sparse solves that took.
   int solve(Vector& r, Vector& d, Vector& target);
 
-  std::size_t factor_bytes() const { return analysis_->factor_bytes(); }
+  std::size_t factor_bytes() const { return factor_bytes_; }
 
  private:
   struct Factor {
-    Factor(double shift, std::shared_ptr<const ConstraintSolver> set,
-           std::shared_ptr<const BlockAnalysis> analysis);
+    Factor(double shift, std::shared_ptr<const ConstraintSolver> set, std::unique_ptr<SparseFactor> memory);
     double s;
     std::shared_ptr<const ConstraintSolver> constraints;
     std::vector<char> free;
     std::vector<int> single, general;  // columns
-    BlockCholesky blocks;
+    std::unique_ptr<SparseFactor> sparse;
     Eigen::LLT<Eigen::MatrixXd> schur;
   };
 
@@ -77,7 +76,9 @@ class ShiftedSystem {
   void spread(const Factor& factor, const Vector& multipliers);
 
   const Model& model_;
-  std::shared_ptr<const BlockAnalysis> analysis_;
+  std::shared_ptr<const FactorOrder> order_;
+  std::unique_ptr<SparseFactor> spare_;  // analysed, for the next factor; or none
+  std::size_t factor_bytes_;
   std::vector<std::array<double, 8>> links_;  // the blocks of J_lambda and J_mu, row-major, by the pattern
   std::vector<Block> values_;
   std::deque<std::unique_ptr<Factor>> factors_;  // the latest first

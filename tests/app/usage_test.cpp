@@ -210,7 +210,7 @@ TEST_F(Usage, AMeshBeyondTheMemoryIsRefusedBeforeItIsBuilt) {
     expect_failure({WEXITSTATUS(status), "", read_text(folder() / "err")}, 2, parts);
   };
   refused("", {"640000 nodes need", "GB", "ulimit -v", "coarser mesh"});
-  refused("--integrator implicit", {"640000 nodes with implicit need about 3.", "GB", "ulimit -v"});
+  refused("--integrator implicit", {"640000 nodes with implicit need about 4.", "GB", "ulimit -v"});
   EXPECT_EQ(read_text(folder() / "out"), "");
 }
 #endif

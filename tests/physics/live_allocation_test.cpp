@@ -111,6 +111,32 @@ TEST_P(LiveAllocation, NoneInAThousandTicks) {
 #endif
 }
 
+// Steps of the implicit integrator, once it has the factor of their size.
+TEST(ImplicitAllocation, NoneInAStep) {
+#ifdef RHEO_CANNOT_COUNT
+  GTEST_SKIP() << "the sanitizer has an allocator of its own";
+#else
+  for (Mass mass : {Mass::lumped, Mass::consistent}) {
+    Scene scene = live_block(mass);
+    scene.time.integrator = IntegratorKind::implicit;
+    scene.time.step = 1.0 / 64;
+    Simulation simulation(scene);
+    // Past the last event, and a step of the size of those that count.
+    ASSERT_FALSE(simulation.advance(8.0 / 64));
+    ASSERT_FALSE(simulation.advance(9.0 / 64));
+    const auto before = simulation.counters();
+    count = 0;
+    counting = true;
+    const auto diverged = simulation.advance(1.0);
+    counting = false;
+    EXPECT_FALSE(diverged);
+    EXPECT_EQ(count.load(), 0);
+    EXPECT_EQ(simulation.counters().factors, before.factors);
+    EXPECT_EQ(simulation.counters().steps, before.steps + 55);
+  }
+#endif
+}
+
 // What counts would count.
 TEST(LiveAllocationCount, SeesAnAllocation) {
 #ifdef RHEO_CANNOT_COUNT

@@ -1,6 +1,6 @@
-// The block factor against dense algebra on random patterns, and what it refuses.
+// The sparse factor of 2 x 2 blocks against dense algebra on random patterns, and what it refuses.
 
-#include "block_cholesky.hpp"
+#include "sparse_factor.hpp"
 
 #include <gtest/gtest.h>
 
@@ -55,10 +55,10 @@ Problem random_problem(int nodes, int extra_edges, double mass, unsigned seed) {
   return p;
 }
 
-TEST(BlockCholesky, SolvesAsDenseAlgebraDoes) {
+TEST(SparseFactor, SolvesAsDenseAlgebraDoes) {
   for (const auto& [nodes, extra] : {std::pair{1, 0}, {2, 0}, {3, 3}, {20, 10}, {60, 150}, {200, 300}}) {
     const Problem p = random_problem(nodes, extra, 0.5, static_cast<unsigned>(nodes));
-    BlockCholesky factor(std::make_shared<BlockAnalysis>(p.pattern));
+    SparseFactor factor(std::make_shared<FactorOrder>(p.pattern));
     ASSERT_TRUE(factor.factor(p.values));
     const Eigen::VectorXd right = Eigen::VectorXd::Random(2 * nodes);
     Eigen::VectorXd x = right;
@@ -69,10 +69,10 @@ TEST(BlockCholesky, SolvesAsDenseAlgebraDoes) {
   }
 }
 
-TEST(BlockCholesky, TakesNewValuesOnTheSamePattern) {
+TEST(SparseFactor, TakesNewValuesOnTheSamePattern) {
   Problem p = random_problem(40, 60, 0.5, 3);
-  const auto analysis = std::make_shared<BlockAnalysis>(p.pattern);
-  BlockCholesky first(analysis), second(analysis);
+  const auto order = std::make_shared<FactorOrder>(p.pattern);
+  SparseFactor first(order), second(order);
   ASSERT_TRUE(first.factor(p.values));
   for (Block& block : p.values) {
     for (double& value : block) value *= 4.0;
@@ -88,7 +88,7 @@ TEST(BlockCholesky, TakesNewValuesOnTheSamePattern) {
   EXPECT_LE((p.dense * (4.0 * x) - right).norm(), 1e-12 * right.norm());
 }
 
-TEST(BlockCholesky, KeepsARowOfNodesWithoutFill) {
+TEST(SparseFactor, KeepsARowOfNodesWithoutFill) {
   BlockPattern chain;
   chain.start.assign(1, 0);
   constexpr int nodes = 50;
@@ -98,18 +98,20 @@ TEST(BlockCholesky, KeepsARowOfNodesWithoutFill) {
     }
     chain.start.push_back(static_cast<int>(chain.column.size()));
   }
-  EXPECT_EQ(BlockAnalysis(chain).fill(), nodes - 1u);
+  // L: one number a node and a block of 4 between neighbours, 12 bytes each; 28 bytes a degree of freedom.
+  EXPECT_EQ(SparseFactor(std::make_shared<FactorOrder>(chain)).bytes(),
+            12u * (nodes + 4 * (nodes - 1)) + 28u * 2 * nodes);
 }
 
-TEST(BlockCholesky, RefusesWhatRoundingLeftNothingOf) {
+TEST(SparseFactor, RefusesWhatRoundingLeftNothingOf) {
   // Without mass the sum of all rows is zero: the last pivot is rounding.
   for (unsigned seed = 0; seed < 20; ++seed) {
     const Problem p = random_problem(30, 40, 0.0, seed);
-    EXPECT_FALSE(BlockCholesky(std::make_shared<BlockAnalysis>(p.pattern)).factor(p.values)) << seed;
+    EXPECT_FALSE(SparseFactor(std::make_shared<FactorOrder>(p.pattern)).factor(p.values)) << seed;
   }
   Problem p = random_problem(4, 2, 1.0, 1);
   p.values[0] = {-1.0, 0.0, 0.0, 1.0};
-  EXPECT_FALSE(BlockCholesky(std::make_shared<BlockAnalysis>(p.pattern)).factor(p.values));
+  EXPECT_FALSE(SparseFactor(std::make_shared<FactorOrder>(p.pattern)).factor(p.values));
 }
 
 }  // namespace
