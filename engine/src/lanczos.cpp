@@ -9,6 +9,7 @@ namespace {
 
 // Residual of the squared frequency at which to stop: half of it remains in the frequency.
 constexpr double wanted_residual = 0.01;
+constexpr double exhausted = 1e-6;  // of the largest diagonal entry
 constexpr int most_steps = 400;
 constexpr int fewest_steps = 16;  // before this a Ritz value may sit on a lower eigenvalue by chance
 
@@ -64,14 +65,16 @@ RitzBound largest_frequency(const Model& model, const ConstraintSolver& solver) 
 
     double largest = 0.0;
     for (double a : alphas) largest = std::max(largest, std::abs(a));
-    const bool invariant = !(beta > 1e-12 * largest);  // the start's whole subspace is found: exact
+    // The start's whole subspace is found, but for a residual that no longer counts. (Going on would be along
+    // rounding, which the constraints do not hold.)
+    const bool invariant = !(beta > exhausted * largest);
     if (invariant || k == most_steps || (k >= fewest_steps && k % 4 == 0)) {
       const Eigen::Map<const Vector> diagonal(alphas.data(), k);
       const Eigen::Map<const Vector> off(betas.data(), k - 1);
       Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
       ritz.computeFromTridiagonal(diagonal, off);
       const double theta = std::max(0.0, ritz.eigenvalues()[k - 1]);
-      const double residual = invariant ? 1e-12 * theta : beta * std::abs(ritz.eigenvectors()(k - 1, k - 1));
+      const double residual = 1e-12 * theta + beta * std::abs(ritz.eigenvectors()(k - 1, k - 1));
       result.omega = std::sqrt(theta + residual);
       if (invariant || residual <= wanted_residual * theta) break;
     }

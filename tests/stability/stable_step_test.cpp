@@ -254,6 +254,8 @@ TEST(StableStep, DividesStableFromDiverging) {
 TEST(StableStep, BaumgarteBeyondItsLimitIsPredictedAndNoticed) {
   Scene scene = paper_beam(Mass::lumped);
   scene.time.constraints = ConstraintMethod::baumgarte;
+  // Violated at first: what is fulfilled exactly does not show the pole.
+  scene.constraints.push_back({{{9, Axis::x, 1.0}}, 0.01, "pull"});
   scene.time.frame_rate = 1e-3;
   scene.time.duration = 1000.0;
   scene.time.baumgarte = 1000.0;
@@ -263,6 +265,7 @@ TEST(StableStep, BaumgarteBeyondItsLimitIsPredictedAndNoticed) {
   const auto found = unstable.advance(10.0);
   ASSERT_TRUE(found);
   EXPECT_LT(found->t, 1.0);
+  scene.constraints.clear();
   scene.time.step = 2.7e-3;
   EXPECT_FALSE(Simulation(scene).advance(5.0));
 }
