@@ -132,7 +132,7 @@ void rest(benchmark::State& state, bool moving) {
   rheo::SimulationOptions options;
   options.threads = 1;
   rheo::Simulation simulation(std::move(scene), options);
-  double t = moving ? 0.02 : 200.0;
+  double t = moving ? 0.02 : 30.0;
   if (simulation.advance(t)) state.SkipWithError("diverged");
   const double length = moving ? 0.01 : 1.0;
   for (auto _ : state) {
