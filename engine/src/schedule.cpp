@@ -137,7 +137,8 @@ void Schedule::make_spectrum() {
   s.lambda_on = material.lambda_ela > 0.0;
   s.mu_on = material.mu_ela > 0.0;
   s.lambda_rate = material.lambda_rate();
-  s.mu_rate = material.mu_rate();
+  // Rates that differ by rounding are one: the branches are combined then.
+  s.mu_rate = s.lambda_on && s.mu_on && combined(material) ? s.lambda_rate : material.mu_rate();
   // J_lambda never exceeds J_mu: (e_x + e_y)^2 <= 2 e_x^2 + 2 e_y^2 + g^2.
   if (s.lambda_on) s.lambda_share = material.lambda_ela / (material.lambda_ela + material.mu_ela);
   s.element_bound = model_.element_omega;
