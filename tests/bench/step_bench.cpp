@@ -117,9 +117,10 @@ void step_edge(benchmark::State& state) {
   const rheo::EdgeForm& form = force.form();
   const auto edges = static_cast<double>(form.offset.size());
   const auto nodes = static_cast<double>(form.nodes);
-  // A sweep reads an edge's 5 numbers and index, and a node's x, base and inverse mass, and writes out; u
-  // once a step.
-  run_body(state, c, body, 4 * (44 * edges + nodes * (48 + 48 + 16 + 48)) + 32 * nodes,
+  // A sweep reads an edge's 5 numbers (3 on large meshes) and index, and a node's x, base and inverse mass,
+  // and writes out; u once a step.
+  const double edge_bytes = 8.0 * (form.level_row + 1) + 4.0;
+  run_body(state, c, body, 4 * (edge_bytes * edges + nodes * (48 + 48 + 16 + 48)) + 32 * nodes,
            4 * (20 * edges + 36 * nodes));
 }
 

@@ -68,6 +68,35 @@ TEST_P(Kernels, GiveOneRunOverWholeScenes) {
   EXPECT_EQ(csr.counters().steps, edge.counters().steps);
 }
 
+// What an edge keeps of its level is a matter of speed alone: the same bits.
+TEST_P(Kernels, GiveTheSameBitsWhetherLevelsAreKeptOrSummed) {
+  if (!has_simd_level(GetParam())) GTEST_SKIP() << "this processor has no " << name_of(GetParam());
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const Scene scene = random_scene(seed);
+    const Model model(scene.mesh, scene.material);
+    Schedule schedule(scene, model);
+    const Interval interval = schedule.interval(0);
+    std::mt19937 random(seed + 3000);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    std::vector<double> y(model.layout.size());
+    for (double& x : y) x = unit(random);
+    Vector base = Vector::Zero(static_cast<Eigen::Index>(model.layout.part));
+    const auto of = [&](Level level) {
+      const auto form = std::make_shared<EdgeForm>(scene.mesh, std::nullopt, level);
+      EXPECT_EQ(form->level_row, level == Level::ready ? 4 : 2);
+      const EdgeForce force(form, GetParam());
+      EdgeBody body(model, force, 1);
+      return outcome(body, interval, base, y, 0.7);
+    };
+    if (!model.layout.lambda || !model.layout.mu) continue;  // combined
+    const Outcome ready = of(Level::ready), summed = of(Level::summed);
+    EXPECT_EQ(ready.swept, summed.swept) << "seed " << seed;
+    EXPECT_EQ(ready.sample.stored, summed.sample.stored) << "seed " << seed;
+    EXPECT_EQ(ready.sample.dissipated_rate, summed.sample.dissipated_rate) << "seed " << seed;
+    EXPECT_EQ((ready.reaction - summed.reaction).norm(), 0.0) << "seed " << seed;
+  }
+}
+
 // Branches of one rate, one branch alone and branches that never relax take fewer numbers and the same
 // course.
 struct CombinedCase {
@@ -242,6 +271,8 @@ TEST(EdgeForm, RenumbersEveryNodeOnceAndKeepsNeighboursNear) {
   EXPECT_LE(form.offset.size(), static_cast<std::size_t>(edges) + form.runs.size());
   // Euler's formula: edges = nodes + triangles - 1 on a disk, each twice here.
   EXPECT_EQ(edges, 2 * (mesh.node_count() + mesh.triangle_count() - 1));
+  EXPECT_EQ(form.level_row, 4) << "in a core's cache";
+  EXPECT_EQ(EdgeForm(rectangle({1, 1}, 160, 160, Diagonal::alternating)).level_row, 2) << "beyond it";
   // A level of the breadth-first order is about a row; swaps inside windows add to it.
   EXPECT_LT(form.bandwidth, 3 * 60 + 2 * 128);
 }

@@ -154,7 +154,7 @@ EdgeBody::Sums EdgeBody::sums_of(const EdgeForm::Block& block) const {
       for (std::int32_t k = 0; k < run.valence; ++k, e += static_cast<std::size_t>(edges.stride)) {
         const std::size_t offset = form_.offset[e];
         if (offset < row() * i) continue;  // each edge once
-        const double* level = form_.level.data() + row() * e;
+        const std::array<double, 4> level = form_.full_level(e);
         const double mixed = form_.mixed[e];
         const double* pj = xp + offset;
         const double* vj = xv + 2 * (offset / row());
@@ -208,7 +208,7 @@ NodeForce EdgeBody::force_at(std::size_t node) const {
   for (std::int32_t k = 0; k < run->valence; ++k) {
     const auto edge = static_cast<std::size_t>(edges.edge + k * edges.stride);
     const Rows d = difference(at(form_.offset[edge] / row_size), own);
-    const double* level = form_.level.data() + row_size * edge;
+    const std::array<double, 4> level = form_.full_level(edge);
     const double mixed = form_.mixed[edge];
     // Rows of two have nothing in their third and fourth number.
     const auto add = [&](const std::array<double, 4>& w, std::array<double, 2>& f) {

@@ -12,6 +12,10 @@
 namespace rheo {
 namespace {
 
+// From this bandwidth on, what four sweeps have in hand (four blocks of some 450 bytes a node) is more than a
+// core's own cache: bytes cost more than instructions.
+constexpr std::int32_t far_bandwidth = 300;
+
 constexpr int valence_window = 128;  // nodes that may change places to lengthen runs of equal valence
 
 struct DirectedEdge {
@@ -78,7 +82,7 @@ std::optional<Combined> combined(const Material& material) {
   return Combined{material.lambda_ela, material.mu_ela};
 }
 
-EdgeForm::EdgeForm(const Mesh& mesh, const std::optional<Combined>& both)
+EdgeForm::EdgeForm(const Mesh& mesh, const std::optional<Combined>& both, const std::optional<Level>& wanted)
     : moduli(both), row(both ? 2 : 4), nodes(mesh.node_count()), corner_factor(mesh.thickness / 4) {
   if (moduli) corner_factor *= moduli->lambda - moduli->mu;
   const auto n = static_cast<std::size_t>(nodes);
@@ -107,6 +111,8 @@ EdgeForm::EdgeForm(const Mesh& mesh, const std::optional<Combined>& both)
       bandwidth = std::max(bandwidth, std::abs(kernel_node[edges[e].to] - static_cast<std::int32_t>(k)));
     }
   }
+  const Level kept = wanted.value_or(bandwidth < far_bandwidth ? Level::ready : Level::summed);
+  level_row = moduli || kept == Level::summed ? 2 : 4;
   const std::int32_t block_nodes = std::max(bandwidth, smallest_block);
 
   std::int64_t count = 0;
@@ -128,10 +134,10 @@ EdgeForm::EdgeForm(const Mesh& mesh, const std::optional<Combined>& both)
   }
 
   constexpr std::size_t widest_load = 8;
-  const auto width = static_cast<std::size_t>(row);
+  const auto width = static_cast<std::ptrdiff_t>(level_row);
   const auto places = static_cast<std::size_t>(count);
   offset.resize(places);
-  level.resize(width * places);
+  level.resize(static_cast<std::size_t>(level_row) * places);
   mixed.assign(places + widest_load, 0.0);
   for (const Run& run : runs) {
     for (std::int32_t k = run.first; k < run.last; ++k) {
@@ -146,7 +152,7 @@ EdgeForm::EdgeForm(const Mesh& mesh, const std::optional<Combined>& both)
             level[2 * at + c] = moduli->lambda * weights[c] + moduli->mu * weights[2 + c];
           mixed[at] = (moduli->lambda + moduli->mu) * edges[e].xy;
         } else {
-          std::copy(weights.begin(), weights.end(), level.begin() + static_cast<std::ptrdiff_t>(4 * at));
+          std::copy_n(weights.begin(), width, level.begin() + width * static_cast<std::ptrdiff_t>(at));
           mixed[at] = edges[e].xy;
         }
         at += static_cast<std::size_t>(place.stride);

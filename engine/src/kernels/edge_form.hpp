@@ -12,7 +12,8 @@
 //
 // so that kernels gather the row p = (l_x, l_y, m_x, m_y) of a neighbour and keep two sums of 4 lanes a node:
 // of level = (xx, yy, 2 xx + yy, 2 yy + xx) times dp, and of mixed = xy times dp, combined once at its end.
-// Level is kept ready: two numbers more an edge to read, a third of the multiplications less.
+// While a step's data stay near the processor, level is kept ready: two numbers more an edge to read, fewer
+// instructions. On larger meshes xx and yy are kept and the sums formed on the way (Level): the same bits.
 //
 // Where the branches relax at one rate, or only one is there, w_lambda = lambda_ela q and w_mu = mu_ela q
 // with one q' = v - rate q, and one row of two numbers carries both (Combined):
@@ -29,6 +30,7 @@
 // Shapes   n nodes in the kernel's own order; directed edges: each edge of the mesh twice
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -47,11 +49,17 @@ struct Combined {
 // Whether a material's branches can be combined: equal rates (but for rounding), or a zero modulus.
 std::optional<Combined> combined(const Material& material);
 
+// What an edge keeps of its level for a row of 4: all four numbers, or xx and yy alone.
+enum class Level { ready, summed };
+
 struct EdgeForm {
-  explicit EdgeForm(const Mesh& mesh, const std::optional<Combined>& moduli = std::nullopt);
+  // `level`: none for what is faster at the mesh's size; combined branches know one way only.
+  explicit EdgeForm(const Mesh& mesh, const std::optional<Combined>& moduli = std::nullopt,
+                    const std::optional<Level>& level = std::nullopt);
 
   std::optional<Combined> moduli;
-  int row = 4;  // numbers of a node's row p: 4, or 2 where the branches are combined
+  int row = 4;        // numbers of a node's row p: 4, or 2 where the branches are combined
+  int level_row = 4;  // numbers kept an edge of its level: 4, or 2 where summed or combined
 
   int nodes = 0;
   std::vector<std::int32_t> mesh_node;    // n: number in the mesh of the kernel's node
@@ -78,8 +86,8 @@ struct EdgeForm {
     }
   };
   std::vector<Run> runs;
-  std::vector<std::uint32_t> offset;  // by directed edge: `row` x the neighbour's number
-  AlignedVector level;                // `row` by directed edge: xx, yy, 2 xx + yy, 2 yy + xx, or kxx, kyy
+  AlignedArray<std::uint32_t> offset;  // by directed edge: `row` x the neighbour's number
+  AlignedVector level;                // by directed edge: xx, yy (2 xx + yy, 2 yy + xx), or kxx, kyy
   AlignedVector mixed;  // by directed edge: xy or kxy; some zeros beyond the end, for wide loads
 
   // Boundary passages: previous and next node along the boundary (interior on the left) of a boundary node.
@@ -102,6 +110,12 @@ struct EdgeForm {
     std::int32_t first_node = 0, last_node = 0;
   };
   std::vector<Block> blocks;
+
+  // A directed edge's level, where the row is 4.
+  std::array<double, 4> full_level(std::size_t edge) const {
+    const double* at = level.data() + static_cast<std::size_t>(level_row) * edge;
+    return {at[0], at[1], 2 * at[0] + at[1], 2 * at[1] + at[0]};
+  }
 };
 
 }  // namespace rheo

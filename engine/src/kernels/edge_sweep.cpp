@@ -8,7 +8,7 @@ namespace rheo {
 namespace {
 
 // Baseline: two lanes or none, as the compiler likes.
-template <int row>
+template <int row, int level_row>
 void sweep_baseline(const EdgeForm& form, const double* inverse_mass, const SweepMaterial& m, double h,
                     const SweepArrays& a, std::int32_t first_run, std::int32_t last_run) {
   for (std::int32_t r = first_run; r < last_run; ++r) {
@@ -19,7 +19,10 @@ void sweep_baseline(const EdgeForm& form, const double* inverse_mass, const Swee
       const EdgeForm::Edges edges = run.edges_of(i);
       std::int64_t e = edges.edge;
       for (std::int32_t k = 0; k < run.valence; ++k, e += edges.stride) {
-        const double* level = form.level.data() + row * e;
+        const double* kept = form.level.data() + level_row * e;
+        double level[row];
+        for (int c = 0; c < row; ++c)
+          level[c] = c < level_row ? kept[c] : 2 * kept[c % 2] + kept[(c + 1) % 2];
         const double mixed = form.mixed[e];
         const double* q = a.x_p + form.offset[e];
         for (int c = 0; c < row; ++c) {
@@ -78,14 +81,17 @@ SimdLevel best_simd_level() {
   return has_simd_level(SimdLevel::avx2) ? SimdLevel::avx2 : SimdLevel::baseline;
 }
 
-SweepFunction sweep_function(SimdLevel level, int row) {
-  assert(has_simd_level(level) && (row == 2 || row == 4));
+SweepFunction sweep_function(SimdLevel level, const EdgeForm& form) {
+  assert(has_simd_level(level));
+  const auto pick = [&](SweepFunction ready, SweepFunction summed, SweepFunction combined) {
+    return form.row == 2 ? combined : form.level_row == 2 ? summed : ready;
+  };
 #ifdef RHEO_X86_SWEEPS
-  if (level == SimdLevel::avx512) return row == 4 ? sweep_avx512 : sweep_combined_avx512;
-  if (level == SimdLevel::avx2) return row == 4 ? sweep_avx2 : sweep_combined_avx2;
+  if (level == SimdLevel::avx512) return pick(sweep_avx512, sweep_summed_avx512, sweep_combined_avx512);
+  if (level == SimdLevel::avx2) return pick(sweep_avx2, sweep_summed_avx2, sweep_combined_avx2);
 #endif
   (void)level;
-  return row == 4 ? sweep_baseline<4> : sweep_baseline<2>;
+  return pick(sweep_baseline<4, 4>, sweep_baseline<4, 2>, sweep_baseline<2, 2>);
 }
 
 }  // namespace rheo

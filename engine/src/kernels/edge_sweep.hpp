@@ -45,7 +45,6 @@ bool has_simd_level(SimdLevel level);
 using SweepFunction = void (*)(const EdgeForm& form, const double* inverse_mass,
                                const SweepMaterial& material, double h, const SweepArrays& arrays,
                                std::int32_t first_run, std::int32_t last_run);
-// For rows of 4 or 2.
-SweepFunction sweep_function(SimdLevel level, int row);
+SweepFunction sweep_function(SimdLevel level, const EdgeForm& form);
 
 }  // namespace rheo

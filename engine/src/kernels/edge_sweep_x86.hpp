@@ -12,14 +12,12 @@
 
 namespace rheo {
 
-void sweep_avx2(const EdgeForm& form, const double* inverse_mass, const SweepMaterial& m, double h,
-                const SweepArrays& a, std::int32_t first_run, std::int32_t last_run);
-void sweep_avx512(const EdgeForm& form, const double* inverse_mass, const SweepMaterial& m, double h,
-                  const SweepArrays& a, std::int32_t first_run, std::int32_t last_run);
-void sweep_combined_avx2(const EdgeForm& form, const double* inverse_mass, const SweepMaterial& m, double h,
-                         const SweepArrays& a, std::int32_t first_run, std::int32_t last_run);
-void sweep_combined_avx512(const EdgeForm& form, const double* inverse_mass, const SweepMaterial& m, double h,
-                           const SweepArrays& a, std::int32_t first_run, std::int32_t last_run);
+using Sweep = void(const EdgeForm& form, const double* inverse_mass, const SweepMaterial& m, double h,
+                   const SweepArrays& a, std::int32_t first_run, std::int32_t last_run);
+
+Sweep sweep_avx2, sweep_avx512;                    // Level::ready
+Sweep sweep_summed_avx2, sweep_summed_avx512;      // Level::summed
+Sweep sweep_combined_avx2, sweep_combined_avx512;  // two numbers a node
 
 }  // namespace rheo
 

@@ -28,6 +28,7 @@
 #include <span>
 #include <vector>
 
+#include "aligned_vector.hpp"
 #include "rheo/material.hpp"
 #include "rheo/mesh.hpp"
 
@@ -62,8 +63,8 @@ struct ElementForm {
   };
   std::vector<Run> runs;
 
-  std::vector<std::array<double, 4>> gradient;       // t: b_1, c_1, b_2, c_2
-  std::vector<std::array<std::uint32_t, 3>> offset;  // t: 4 x slot of the corners 0, 1, 2
+  AlignedArray<std::array<double, 4>> gradient;       // t: b_1, c_1, b_2, c_2
+  AlignedArray<std::array<std::uint32_t, 3>> offset;  // t: 4 x slot of the corners 0, 1, 2
 
   // A node's triangles, rising.
   std::span<const std::int32_t> triangles_at(std::size_t node) const {
