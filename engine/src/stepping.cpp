@@ -1,0 +1,217 @@
+#include "stepping.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "kernels/flush_denormals.hpp"
+#include "timeline.hpp"
+
+namespace rheo {
+namespace {
+
+// Of all energy that ever went in: what is left below it cannot move the body by a rounding of its course.
+constexpr double energy_at_rest = 1e-32;
+constexpr double violation_allowed = 0.01;  // of a constraint's coefficients times the largest |u|
+
+// The first node whose velocity is no number, or the one with the largest.
+int fastest_node(const VectorMap& v) {
+  double fastest = -1.0;
+  Eigen::Index found = 0;
+  for (Eigen::Index node = 0; node < v.size() / 2; ++node) {
+    const double speed = std::hypot(v[2 * node], v[2 * node + 1]);
+    if (!std::isfinite(speed)) return static_cast<int>(node);
+    if (speed > fastest) {
+      fastest = speed;
+      found = node;
+    }
+  }
+  return static_cast<int>(found);
+}
+
+}  // namespace
+
+Stepping::Stepping(const Scene& scene, const Model& model, Schedule& schedule, Body& body,
+                   Integrator& integrator, StepLimits limits, std::int64_t stride)
+    : scene_(scene),
+      model_(model),
+      schedule_(schedule),
+      body_(body),
+      integrator_(integrator),
+      limits_(limits),
+      stride_(stride),
+      readings_(model, body),
+      holds_(model, scene.constraints.size()) {
+  enter(0);
+}
+
+// Where steps are long, the loads' part alone, by parts, is exact for constant loads.
+bool Stepping::books_work() const {
+  return !takes_long_steps(scene_.time.integrator) ||
+         (scene_.moves.empty() && std::all_of(scene_.tractions.begin(), scene_.tractions.end(),
+                                              [](const Traction& t) { return t.keys.size() == 1; }));
+}
+// Likewise: nothing, or unknown.
+bool Stepping::books_dissipated() const {
+  return !takes_long_steps(scene_.time.integrator) ||
+         ((!model_.layout.lambda || model_.material.lambda_rate() == 0.0) &&
+          (!model_.layout.mu || model_.material.mu_rate() == 0.0));
+}
+
+void Stepping::enter(std::size_t i) {
+  index_ = i;
+  enter_from(schedule_.begin(i));
+}
+
+// Passes an event, or the hands' change of mind in the current interval: new loads and constraints, and the
+// velocity's jump where a constraint begins or its b' jumps.
+void Stepping::enter_from(double begin) {
+  const bool first = !entered_;
+  entered_ = true;
+  schedule_.fill(index_, begin, next_);
+  if (hands_ != nullptr && hands_->add_to(next_)) next_.solver = schedule_.solver_holding(index_, next_.held);
+  if (holds_.change_owners(next_, hands_)) readings_.state();
+  const double* const y = readings_.last_state().data();
+  const bool begins =
+      holds_.find_jumps(interval_, next_, y + model_.layout.u(), y + model_.layout.v()) || first;
+  const bool other_constraints = next_.solver != interval_.solver;
+  std::swap(interval_, next_);
+  body_.enter(interval_, holds_.base());
+  bool projected = false;
+  if (begins) {
+    const auto general = first ? Holds::General::begin : Holds::General::go_on;
+    if (const auto work = holds_.project(interval_, general, readings_.v())) {
+      book_.book_impulse(*work);
+      ++body_.counters().projections;
+      body_.load(readings_.state());
+      projected = true;
+    }
+  }
+  body_.impose_prescribed(time_);
+  if (projected) {
+    readings_.state_changed();
+  } else {
+    readings_.loads_changed();
+  }
+  if (begins || other_constraints) note_violations();
+}
+
+double Stepping::violation(std::size_t column) {
+  const Column& c = interval_.solver->columns()[column];
+  return interval_.solver->row_times(column, readings_.u().data()) - body_.column_value(c, time_, 0);
+}
+
+// How far each general constraint is from fulfilled where a set of them begins; from here it may only
+// decay.
+void Stepping::note_violations() {
+  const std::size_t columns = interval_.solver->columns().size();
+  allowed_violation_.assign(columns, 0.0);
+  for (std::size_t j = 0; j < columns; ++j) allowed_violation_[j] = 2.0 * std::abs(violation(j));
+}
+
+// Nothing acts, nothing is moved, and what is left of the energy is nothing beside what went in.
+bool Stepping::at_rest() {
+  if (interval_.moving || !interval_.solver->columns().empty()) return false;
+  if (!(interval_.force.array() == 0.0).all() || !(interval_.force_rate.array() == 0.0).all()) return false;
+  const EnergySample& now = readings_.sample(time_);
+  return now.kinetic + now.stored <= energy_at_rest * book_.turnover();
+}
+
+// (Residual forces of a rigid motion hold no energy and may still be large.)
+void Stepping::pass_at_rest(double end) {
+  const std::span<double> y = readings_.state();
+  const auto decay = [&](std::size_t offset, double rate) {
+    VectorMap(y.data() + offset, static_cast<Eigen::Index>(model_.layout.part)) *=
+        std::exp(-rate * (end - time_));
+  };
+  if (model_.layout.lambda) decay(model_.layout.w_lambda(), model_.material.lambda_rate());
+  if (model_.layout.mu) decay(model_.layout.w_mu(), model_.material.mu_rate());
+  body_.load(y);
+  body_.counters().steps_at_rest += steps_to(end);
+  time_ = end;
+  readings_.state_changed();
+}
+
+std::int64_t Stepping::steps_to(double end) const {
+  return steps_in(end - time_, scene_.time.refinement, limits_.bound);
+}
+
+std::optional<Divergence> Stepping::run_segment(double end) {
+  const double start = time_;
+  if (at_rest()) {
+    pass_at_rest(end);
+    return std::nullopt;
+  }
+  const std::int64_t n = steps_to(end);
+  const double h = (end - start) / static_cast<double>(n);
+  largest_step_ = std::max(largest_step_, h);
+  readings_.sample(time_);
+  for (std::int64_t k = 0; k < n; ++k) {
+    integrator_.step(body_, time_, h, body_.state(), body_.known_rate());
+    if (!integrator_.converged()) {
+      readings_.state_changed();
+      return divergence_now();
+    }
+    time_ = k + 1 == n ? end : start + static_cast<double>(k + 1) * h;
+    ++body_.counters().steps;
+    body_.impose_prescribed(time_);
+    readings_.state_changed();
+    if ((k + 1) % stride_ != 0 && k + 1 != n) continue;
+    const EnergySample before = readings_.last_sample();
+    const double since = readings_.last_sample_time();
+    book_.book_step(before, readings_.sample(time_), time_ - since);
+    if (auto found = check_divergence()) return found;
+  }
+  return std::nullopt;
+}
+
+std::optional<Divergence> Stepping::check_divergence() {
+  const EnergySample& now = readings_.sample(time_);
+  const double energy = now.kinetic + now.stored;
+  // Where the work is not known, the integrator's own error control stands guard.
+  bool fine = books_work() ? energy <= book_.work() + book_.turnover()  // false for NaN
+                           : std::isfinite(energy);
+  const double reach = allowed_violation_.empty() ? 0.0 : readings_.u().lpNorm<Eigen::Infinity>();
+  for (std::size_t j = 0; fine && j < allowed_violation_.size(); ++j) {
+    double size = 0.0;
+    for (const auto& entry : interval_.solver->columns()[j].entries) size += std::abs(entry.second) * reach;
+    fine = std::abs(violation(j)) <= allowed_violation_[j] + violation_allowed * size;
+  }
+  if (fine) return std::nullopt;
+  return divergence_now();
+}
+
+Divergence Stepping::divergence_now() {
+  const EnergySample& now = readings_.sample(time_);
+  Divergence d{time_, 0, now.kinetic + now.stored, book_.work() + book_.turnover(), limits_.stable};
+  d.node = fastest_node(readings_.v());
+  return d;
+}
+
+void Stepping::attach(Hands& hands, StepLimits limits) {
+  hands_ = &hands;
+  limits_ = limits;
+  for (Interval* i : {&interval_, &next_}) {
+    i->force_rate.setZero(static_cast<Eigen::Index>(model_.layout.part));
+    i->course.reserve(schedule_.holder_count() + hands.owner_count());
+    i->held.reserve(model_.layout.part);
+    i->eliminated.reserve(model_.layout.part);
+  }
+  readings_.reserve_reactions();
+  hands.prepare(schedule_);
+  enter_now();
+}
+
+std::optional<Divergence> Stepping::advance(double t) {
+  assert(t >= time_ || same_time(t, time_));
+  const FlushDenormals flush;
+  while (!diverged_ && time_ < t && !same_time(time_, t)) {
+    const double event = schedule_.end(index_);
+    const bool passes = event <= t || same_time(event, t);
+    diverged_ = run_segment(passes ? event : t);
+    if (!diverged_ && passes) enter(index_ + 1);
+  }
+  return diverged_;
+}
+
+}  // namespace rheo

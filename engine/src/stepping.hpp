@@ -1,0 +1,79 @@
+// A body through the scene's intervals: equal steps to the next event, the passage of the event, rest, and
+// the watch over divergence.
+//
+// Where mass and loads have spent all energy but a rounding of it, nothing is stepped: v = 0 and
+// w' = - rate w, exactly.
+//
+// Units    time [s], energies [J]
+// Errors   advance: a Divergence, never an exception
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "energy_book.hpp"
+#include "hands.hpp"
+#include "holds.hpp"
+#include "readings.hpp"
+#include "step_choice.hpp"
+
+namespace rheo {
+
+class Stepping {
+ public:
+  // All must outlive this. stride: steps from one look at the energies to the next.
+  Stepping(const Scene& scene, const Model& model, Schedule& schedule, Body& body, Integrator& integrator,
+           StepLimits limits, std::int64_t stride);
+
+  double time() const { return time_; }
+  std::optional<Divergence> advance(double t);
+
+  // From now on hands act beside the scene. Takes all memory that they will need.
+  void attach(Hands& hands, StepLimits limits);
+  // At a time in the current interval the hands changed what they do.
+  void enter_now() { enter_from(time_); }
+
+  const StepLimits& limits() const { return limits_; }
+  double largest_step() const { return largest_step_; }
+  const Interval& interval() const { return interval_; }
+  std::size_t interval_index() const { return index_; }
+  const EnergyBook& book() const { return book_; }
+  // Whether the quadrature over a step gives all of the work, and of what is dissipated.
+  bool books_work() const;
+  bool books_dissipated() const;
+  Readings& readings() { return readings_; }
+
+ private:
+  void enter(std::size_t i);
+  void enter_from(double begin);
+  bool at_rest();
+  void pass_at_rest(double end);
+  std::int64_t steps_to(double end) const;
+  std::optional<Divergence> run_segment(double end);
+  double violation(std::size_t column);
+  void note_violations();
+  std::optional<Divergence> check_divergence();
+  Divergence divergence_now();
+
+  const Scene& scene_;
+  const Model& model_;
+  Schedule& schedule_;
+  Body& body_;
+  Integrator& integrator_;
+  StepLimits limits_;
+  std::int64_t stride_ = 1;
+
+  Readings readings_;
+  EnergyBook book_;
+  Holds holds_;
+  Hands* hands_ = nullptr;
+  Interval interval_, next_;
+  bool entered_ = false;
+  std::size_t index_ = 0;
+  double time_ = 0.0;
+  double largest_step_ = 0.0;
+  std::vector<double> allowed_violation_;
+  std::optional<Divergence> diverged_;
+};
+
+}  // namespace rheo
