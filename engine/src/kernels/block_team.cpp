@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <thread>
+#include <utility>
 
 #include "kernels/flush_denormals.hpp"
 
@@ -38,10 +39,23 @@ int paying_threads(int nodes, int asked) {
   return asked > 0 ? asked : std::clamp(nodes / nodes_a_thread, 1, usable_processors());
 }
 
-BlockTeam::BlockTeam(std::size_t blocks, int threads)
-    : blocks_(blocks),
-      threads_(std::clamp(threads, 1, static_cast<int>(std::max<std::size_t>(1, blocks / fewest_blocks)))),
+BlockTeam::BlockTeam(std::vector<std::int32_t> ends, int threads)
+    : ends_(std::move(ends)),
+      threads_(
+          std::clamp(threads, 1, static_cast<int>(std::max<std::size_t>(1, ends_.size() / fewest_blocks)))),
       progress_(std::make_unique<Progress[]>(static_cast<std::size_t>(threads_))) {}
+
+// The block that holds the member's share of the nodes, but so that each member has a block at least.
+std::size_t BlockTeam::stretch_begin(std::size_t member, std::size_t team) const {
+  if (member == team) return ends_.size();
+  std::size_t begin = 0;
+  for (std::size_t m = 1; m <= member; ++m) {
+    const auto share = static_cast<std::int64_t>(m) * ends_.back() / static_cast<std::int64_t>(team);
+    const auto at = std::upper_bound(ends_.begin(), ends_.end(), share) - ends_.begin();
+    begin = std::clamp(static_cast<std::size_t>(at), begin + 1, ends_.size() - (team - m));
+  }
+  return begin;
+}
 
 void BlockTeam::run(std::size_t sweeps, Call call, const void* context) {
   if (threads_ == 1) {
@@ -62,8 +76,8 @@ void BlockTeam::run(std::size_t sweeps, Call call, const void* context) {
 
 void BlockTeam::run_stretch(std::size_t member, std::size_t team, std::size_t sweeps, Call call,
                             const void* context) {
-  const std::size_t begin = blocks_ * member / team;
-  const std::size_t end = blocks_ * (member + 1) / team;
+  const std::size_t begin = stretch_begin(member, team);
+  const std::size_t end = stretch_begin(member + 1, team);
   const std::size_t length = end - begin;
   // Of two neighbours the first, third, ... goes down from the edge that they share, the other up.
   const bool down = team > 1 && member % 2 == 0;

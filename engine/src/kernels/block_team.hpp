@@ -14,7 +14,9 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace rheo {
 
@@ -26,8 +28,9 @@ int paying_threads(int nodes, int asked);
 
 class BlockTeam {
  public:
-  // `threads` are brought down to what the blocks keep busy; at least 1.
-  BlockTeam(std::size_t blocks, int threads);
+  // `ends`: one past each block's last node, rising (node_blocks.hpp). Threads' stretches have about as many
+  // nodes each. `threads` are brought down to what the blocks keep busy; at least 1.
+  BlockTeam(std::vector<std::int32_t> ends, int threads);
 
   int threads() const { return threads_; }
 
@@ -54,7 +57,10 @@ class BlockTeam {
   void run(std::size_t sweeps, Call call, const void* context);
   void run_stretch(std::size_t member, std::size_t team, std::size_t sweeps, Call call, const void* context);
 
-  std::size_t blocks_;
+  // Where the stretch of a team's member begins.
+  std::size_t stretch_begin(std::size_t member, std::size_t team) const;
+
+  std::vector<std::int32_t> ends_;
   int threads_;
   std::unique_ptr<Progress[]> progress_;
 };
