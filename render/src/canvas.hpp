@@ -12,6 +12,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "render/text_box.hpp"
 
 namespace render {
 
@@ -68,6 +71,10 @@ class Canvas {
   void label_upwards(Point at, TextSize size, Color color, std::string_view s);
   // `s` shortened to fit, with an ellipsis.
   std::string fit(TextSize size, std::string_view s, float width) const;
+
+  // All that was written since the last call of set_texts(), in order.
+  const std::vector<TextBox>& texts() const;
+  void set_texts(std::vector<TextBox> texts);
 
   void flush();
 

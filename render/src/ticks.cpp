@@ -107,4 +107,33 @@ std::string time_text(double seconds) {
   return fmt::format("t = {:.3g} µs", seconds * 1e6);
 }
 
+std::vector<std::string> short_times(std::span<const double> seconds) {
+  double longest = 0;
+  for (const double t : seconds)
+    if (std::isfinite(t)) longest = std::max(longest, std::abs(t));
+  struct Unit {
+    const char* name;
+    double factor;
+  };
+  const Unit unit = longest == 0 || longest >= 0.0095 ? Unit{"s", 1}
+                    : longest >= 0.95e-5              ? Unit{"ms", 1e3}
+                                                      : Unit{"µs", 1e6};
+  const double digits = std::max(std::log10(longest * unit.factor), 0.0);
+  const int most = std::max(3 - std::max(static_cast<int>(digits) - 1, 0), 0);
+  int decimals = 0;
+  for (; decimals < most; ++decimals) {
+    const double power = std::pow(10.0, decimals);
+    const bool exact = std::ranges::all_of(seconds, [&](double t) {
+      const double scaled = t * unit.factor * power;
+      return !std::isfinite(t) || std::abs(scaled - std::round(scaled)) < 5e-4 * power;
+    });
+    if (exact) break;
+  }
+  std::vector<std::string> texts;
+  for (const double t : seconds)
+    texts.push_back(std::isfinite(t) ? fmt::format("{} {}", written(t * unit.factor, decimals), unit.name)
+                                     : "?");
+  return texts;
+}
+
 }  // namespace render
