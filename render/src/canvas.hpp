@@ -37,7 +37,7 @@ struct Color {
 enum class Align { left, center, right };
 enum class TextSize { small, normal, title };
 
-// The height of normal text in a picture: readable from 320 x 240 up to 3840 x 2160.
+// The height of normal text in a picture: readable from 240 x 160 up to 3840 x 2160.
 int text_height(int picture_width, int picture_height);
 
 class Canvas {
