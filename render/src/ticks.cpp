@@ -72,6 +72,13 @@ Ticks log_ticks(double low, double high, int most) {
     return ticks;
   }
   const int every = std::max(1, (last - first + most) / most);
+  // Multiples of `every`; where the range has but one of them, from its first power on.
+  const auto multiples = [&] {
+    int n = 0;
+    for (int k = first; k <= last; ++k) n += k % every == 0 ? 1 : 0;
+    return n;
+  };
+  const int start = multiples() < 2 && most > 1 ? first : 0;
   for (int k = first - 1; k <= last && every == 1; ++k) {
     for (int m = 2; m < 10; ++m) {
       const double value = m * std::pow(10.0, k);
@@ -79,7 +86,7 @@ Ticks log_ticks(double low, double high, int most) {
     }
   }
   for (int k = first; k <= last; ++k) {
-    if (k % every != 0) {
+    if ((k - start) % every != 0) {
       ticks.minor.push_back(std::pow(10.0, k));
       continue;
     }

@@ -102,6 +102,15 @@ TEST(Typeset, LeavesOtherTextAlone) {
   }
 }
 
+TEST(LogTicks, AreTwoAtLeastWhereTheRangeHasTwoPowers) {
+  for (int first = -5; first < 5; ++first) {
+    for (int decades = 1; decades < 8; ++decades) {
+      const auto ticks = log_ticks(std::pow(10, first - 0.3), std::pow(10, first + decades + 0.3), 2);
+      EXPECT_GE(ticks.at.size(), 2u) << first << " " << decades;
+    }
+  }
+}
+
 TEST(ShortTimes, HaveOneUnitAndNoMoreDecimalsThanTheyNeed) {
   using testing::ElementsAre;
   const auto of = [](std::vector<double> t) { return render::short_times(t); };
