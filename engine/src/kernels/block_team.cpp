@@ -3,6 +3,7 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <chrono>
 #include <thread>
 #include <utility>
 
@@ -12,6 +13,7 @@ namespace rheo {
 namespace {
 
 constexpr std::size_t fewest_blocks = 4;  // a thread: fewer are waited for longer than they take
+constexpr double repay = 20.0;            // of what follows, at most one part in so many is lost to waiting
 
 void wait_for(const std::atomic<std::size_t>& progress, std::size_t wanted) {
   constexpr int spins =
@@ -57,9 +59,33 @@ std::size_t BlockTeam::stretch_begin(std::size_t member, std::size_t team) const
   return begin;
 }
 
+BlockTeam::Record& BlockTeam::record_of(Call call, std::size_t sweeps) {
+  for (Record& record : records_) {
+    if (record.call == nullptr) {
+      record.call = call;
+      record.sweeps = sweeps;
+    }
+    if (record.call == call && record.sweeps == sweeps) return record;
+  }
+  return records_.back();  // more kinds than there are
+}
+
 void BlockTeam::run(std::size_t sweeps, Call call, const void* context) {
   if (threads_ == 1) {
     run_stretch(0, 1, sweeps, call, context);
+    return;
+  }
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  Record& record = record_of(call, sweeps);
+  if (record.trials > 0 || alone_for_ > 0.0) {
+    run_stretch(0, 1, sweeps, call, context);
+    const double taken = seconds();
+    if (record.trials > 0) --record.trials;
+    alone_for_ -= taken;
+    // Forgets slowly what was once faster.
+    record.alone = std::min(taken, 1.1 * record.alone);
     return;
   }
   for (int k = 0; k < threads_; ++k) {
@@ -72,6 +98,8 @@ void BlockTeam::run(std::size_t sweeps, Call call, const void* context) {
     run_stretch(static_cast<std::size_t>(omp_get_thread_num()),
                 static_cast<std::size_t>(omp_get_num_threads()), sweeps, call, context);
   }
+  const double lost = seconds() - record.alone;
+  if (lost > 0.0) alone_for_ = repay * lost;
 }
 
 void BlockTeam::run_stretch(std::size_t member, std::size_t team, std::size_t sweeps, Call call,
