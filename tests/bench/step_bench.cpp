@@ -5,6 +5,8 @@
 //                              baseline
 //   step/<kernel>/<triangles>  the engine's integrator on its operator, without energies
 //   step2/edge/<triangles>     the same with two threads
+//   start/<triangles>          a simulation made ready: the kernel's numbers, the stable step; no file is
+//   read
 //
 // Counters: ns a triangle and step; the bytes and flops that a step must at least move and do; the hash of
 // the state after some first steps (one for a kernel and level, with any number of threads). Run with
@@ -149,6 +151,15 @@ void sizes(benchmark::internal::Benchmark* b) {
   b->UseRealTime();
 }
 
+void start(benchmark::State& state) {
+  const Case& c = case_of(static_cast<int>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(rheo::Simulation(c.scene, {.energies = false, .threads = 1}));
+  state.counters["ns/tri"] =
+      benchmark::Counter(1e-9 * c.scene.mesh.triangle_count(),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+BENCHMARK(start)->Name("start")->Apply(sizes);
 BENCHMARK(step_csr)->Name("step/csr")->Apply(sizes);
 BENCHMARK(step_assembled)->Name("step/assembled_horner")->Apply(sizes);
 BENCHMARK(step_edge_best<1>)->Name("step/edge")->Apply(sizes);
