@@ -27,10 +27,22 @@ void Material::validate(const std::string& where) const {
     check(value > 0.0, name, value, "a number > 0 (Pa s) is needed; inf: never relaxes");
     if (std::isfinite(value)) usable(name, value, " (Pa s), and inf");
   };
-  modulus("lambda_ela", lambda_ela);
-  modulus("mu_ela", mu_ela);
-  viscosity("lambda_vis", lambda_vis);
-  viscosity("mu_vis", mu_vis);
+  for (std::size_t k = 0; k < branch_count(); ++k) {
+    const MaxwellBranch b = branch(k);
+    const std::string number = k == 0 ? "" : fmt::format("maxwell {}: ", k + 1);
+    modulus((number + "lambda_ela").c_str(), b.lambda_ela);
+    modulus((number + "mu_ela").c_str(), b.mu_ela);
+    viscosity((number + "lambda_vis").c_str(), b.lambda_vis);
+    viscosity((number + "mu_vis").c_str(), b.mu_vis);
+  }
+  modulus("elastic.lambda", elastic.lambda);
+  modulus("elastic.mu", elastic.mu);
+  const auto dashpot = [&](const char* name, double value) {
+    check(value >= 0.0 && std::isfinite(value), name, value, "a finite number >= 0 (Pa s) is needed");
+    if (value != 0.0) usable(name, value, " (Pa s), and 0");
+  };
+  dashpot("viscous.lambda", viscous.lambda);
+  dashpot("viscous.mu", viscous.mu);
   check(density > 0.0 && std::isfinite(density), "density", density,
         "a finite number > 0 (kg/m^3) is needed");
   usable("density", density, " (kg/m^3)");
