@@ -21,7 +21,12 @@ Assembly assembly_for(const Scene& scene, Kernel kernel) {
         fmt::format("kernel {} has no matrices, which integrator = \"implicit\" factors: use auto or csr",
                     name));
   }
-  const bool by_nodes = scene.material.mass == Mass::lumped && !has_columns(scene) && !implicit;
+  if (asked && !scene.material.is_one_branch()) {
+    throw Error(Error::Kind::input,
+                fmt::format("kernel {} knows one Maxwell branch alone: use auto or csr", name));
+  }
+  const bool by_nodes = scene.material.mass == Mass::lumped && !has_columns(scene) && !implicit &&
+                        scene.material.is_one_branch();
   if (asked && !by_nodes) {
     throw Error(Error::Kind::input,
                 fmt::format("kernel {} needs mass = \"lumped\" and constraints = \"auto\" without "
