@@ -25,7 +25,8 @@ constexpr double error_of_tolerance = 0.5;
 constexpr double largest_share = 0.95;  // of the stable step: the coarsest trial run
 // An integrator with trial runs is worth them if its coarsest run costs so many times less.
 constexpr double worth_trials = 8.0;
-// A run of the exponential integrator may cost so many of the coarsest trial run to be their yardstick.
+// A run of the exponential integrator may cost so many of the coarsest trial run to be their yardstick: what
+// a run with half of its steps costs.
 constexpr double yardstick_worth = 4.0;
 
 // Rounding's part of the error, in machine epsilons: of any run; for each radian of the fastest vibration and
@@ -158,7 +159,7 @@ class Planner {
     const double fewest = steps_at(stretches_, coarsest(kind));
     // Out of reach or not, the trial runs show what is not.
     const double aim = std::max(accuracy_, 4.0 * floor_of(fewest));
-    const double tolerance = std::max(0.01 * aim, finest_tolerance);
+    const double tolerance = std::max(reference_share * aim, finest_tolerance);
     const bool short_of =
         columns_ || exponential_evaluations(tolerance) > yardstick_worth * least_evaluations(kind);
     const StepChoice choice =

@@ -103,9 +103,9 @@ struct EdgeForm {
   // A node's neighbours have numbers within this distance.
   std::int32_t bandwidth = 0;
 
-  // Stretches of whole runs, none (but the last) shorter than the bandwidth: a node's neighbours lie in its
-  // own or a neighbouring block, so that sweeps can follow each other through the mesh at a distance of one
-  // block.
+  // Stretches of whole runs: a node's neighbours lie in its own or a neighbouring block, so that sweeps can
+  // follow each other through the mesh at a distance of one block. Each is as short as that allows, down to
+  // smallest_block: the shorter, the nearer the data stay.
   struct Block {
     std::int32_t first_run = 0, last_run = 0;
     std::int32_t first_node = 0, last_node = 0;
