@@ -125,7 +125,9 @@ void add_output_options(CLI::App& command, Texts& texts) {
 
 void add_picture_options(CLI::App& command, Texts& texts) {
   const char* group = "Pictures (default: as the scene says)";
-  command.add_option("--size", texts.size, "pixels, each side 16 to 16384; a scene's default is 1280x720")
+  command
+      .add_option("--size", texts.size,
+                  fmt::format("pixels, {};\na scene's default is 1280x720", picture_sizes()))
       ->type_name("WxH")
       ->group(group);
   command
@@ -146,7 +148,8 @@ void add_picture_options(CLI::App& command, Texts& texts) {
       ->group(group);
   command
       .add_option("--sheet", texts.sheet,
-                  fmt::format("shapes on sheet.png, {} to {}; default: 8 to 12, as suits the run",
+                  fmt::format("shapes on sheet.png, {} to {}; default: 8 to 12, as suits the run;\n"
+                              "fewer in small pictures",
                               fewest_shapes, most_shapes))
       ->type_name("N")
       ->group(group);
@@ -178,7 +181,7 @@ void add_bench_options(CLI::App& command, Texts& texts) {
       ->group(output);
   command.add_flag("--quiet", texts.quiet, "print nothing unless something fails")->group(output);
   add(output, "--size", texts.size, "WxH",
-      "pixels of bench.png, each side 16 to 16384; default: as the scene says");
+      fmt::format("pixels of bench.png, {};\ndefault: as the scene says", picture_sizes()));
   add(output, "--backend", texts.backend, "NAME", "auto, osmesa or egl, to draw with");
 }
 
@@ -199,7 +202,7 @@ void add_plot_options(CLI::App& command, Texts& texts) {
       ->group(group);
   command
       .add_option("--size", texts.size,
-                  "pixels of the pictures, each side 16 to 16384; default: as the scene\nsays")
+                  fmt::format("pixels of the pictures, {};\ndefault: as the scene says", picture_sizes()))
       ->type_name("WxH")
       ->group(group);
   command.add_option("--backend", texts.backend, "auto, osmesa or egl, to draw with")

@@ -13,12 +13,10 @@
 #include "failure.hpp"
 #include "nearest.hpp"
 #include "rheo/limits.hpp"
+#include "rheo/scene.hpp"
 
 namespace app {
 namespace {
-
-constexpr int smallest_side = 16;
-constexpr int largest_side = 16384;
 
 [[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& allowed) {
   throw Failure(ExitCode::usage, fmt::format("{} '{}': {}", option, text, allowed));
@@ -134,19 +132,24 @@ int whole_number(const std::string& option, const std::string& text, int low, in
   return *value;
 }
 
+std::string picture_sizes() {
+  return fmt::format("from {}x{} to {}x{}", rheo::min_picture_size[0], rheo::min_picture_size[1],
+                     rheo::max_picture_side, rheo::max_picture_side);
+}
+
 std::array<int, 2> picture_size(const std::string& option, const std::string& text) {
   const std::size_t cross = text.find_first_of("xX");
-  const auto side = [&](std::string_view part) {
+  const auto side = [&](std::string_view part, int smallest) {
     const std::optional<int> value = whole_text<int>(part);
-    if (!value || *value < smallest_side || *value > largest_side)
+    if (!value || *value < smallest || *value > rheo::max_picture_side)
       refuse(option, text,
-             fmt::format("must be WIDTHxHEIGHT in pixels, each from {} to {}, such as 1280x720",
-                         smallest_side, largest_side));
+             fmt::format("must be WIDTHxHEIGHT in pixels, {}, such as 1280x720", picture_sizes()));
     return *value;
   };
   const std::string_view whole = text;
-  if (cross == std::string::npos) side("");
-  return {side(whole.substr(0, cross)), side(whole.substr(cross + 1))};
+  const auto [width, height] = rheo::min_picture_size;
+  if (cross == std::string::npos) side("", width);
+  return {side(whole.substr(0, cross), width), side(whole.substr(cross + 1), height)};
 }
 
 ColorRange color_range(const std::string& option, const std::string& text) {

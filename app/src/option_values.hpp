@@ -15,6 +15,7 @@ double step_value(const std::string& option, const std::string& text);  // "auto
 double tolerance_value(const std::string& option, const std::string& text);
 double accuracy_value(const std::string& option, const std::string& text);
 int whole_number(const std::string& option, const std::string& text, int low, int high);
+std::string picture_sizes();  // "from 240x160 to ...", of which picture_size() takes one
 std::array<int, 2> picture_size(const std::string& option, const std::string& text);
 ColorRange color_range(const std::string& option, const std::string& text);
 rheo::IntegratorKind integrator_kind(const std::string& option, const std::string& text);

@@ -174,8 +174,9 @@ struct Sequence::Impl {
     render::Image image;
     {
       const Timed timed(seconds.draw);
+      const int room = render::sheet_room(scene.picture.size[0], scene.picture.size[1]);
       for (const std::int64_t k :
-           sheet_frames(recorder.count(), scene.time.frame_rate, event_times(scene), shapes))
+           sheet_frames(recorder.count(), scene.time.frame_rate, event_times(scene), shapes, room))
         frames.emplace_back(LoadedFrame{.bare = bare}).load(recorder, edges, k);
       for (const LoadedFrame& frame : frames) views.push_back(frame.view());
       image = picture.sheet(views);

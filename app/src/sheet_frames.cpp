@@ -7,8 +7,8 @@
 namespace app {
 namespace {
 
-constexpr int fewest = 8;
-constexpr int most = 12;
+constexpr int fewest_wanted = 8;
+constexpr int most_wanted = 12;
 // More keys than this are a curve, not moments to show.
 constexpr std::size_t most_keys = 8;
 
@@ -44,7 +44,9 @@ std::vector<double> event_times(const rheo::Scene& scene) {
 }
 
 std::vector<std::int64_t> sheet_frames(std::int64_t outputs, double frame_rate,
-                                       const std::vector<double>& events, std::optional<int> wanted) {
+                                       const std::vector<double>& events, std::optional<int> wanted,
+                                       int room) {
+  const int fewest = std::clamp(room, 2, fewest_wanted), most = std::clamp(room, 2, most_wanted);
   if (outputs <= (wanted ? *wanted : fewest)) {
     std::vector<std::int64_t> all;
     for (std::int64_t k = 0; k < outputs; ++k) all.push_back(k);

@@ -12,10 +12,11 @@ namespace app {
 // Times inside (0, duration) at which loads or constraints begin, end or have a key; sorted, each once.
 std::vector<double> event_times(const rheo::Scene& scene);
 
-// Output numbers below `outputs`, rising, the first and the last among them, `wanted` or 8 to 12: the count
-// whose equal spacing is a whole number of outputs and meets most events; events that it misses take the
-// place of a neighbour.
+// Output numbers below `outputs`, rising, the first and the last among them, `wanted` or 8 to 12 (fewer where
+// there is `room` for fewer): the count whose equal spacing is a whole number of outputs and meets most
+// events; events that it misses take the place of a neighbour.
 std::vector<std::int64_t> sheet_frames(std::int64_t outputs, double frame_rate,
-                                       const std::vector<double>& events, std::optional<int> wanted);
+                                       const std::vector<double>& events, std::optional<int> wanted,
+                                       int room);
 
 }  // namespace app

@@ -25,7 +25,8 @@ constexpr double error_of_tolerance = 0.5;
 constexpr double largest_share = 0.95;  // of the stable step: the coarsest trial run
 // An integrator with trial runs is worth them if its coarsest run costs so many times less.
 constexpr double worth_trials = 8.0;
-// A run of the exponential integrator may cost so many of the coarsest trial run to be their yardstick.
+// A run of the exponential integrator may cost so many of the coarsest trial run to be their yardstick: what
+// a run with half of its steps costs.
 constexpr double yardstick_worth = 4.0;
 
 // Rounding's part of the error, in machine epsilons: of any run; for each radian of the fastest vibration and
@@ -107,19 +108,13 @@ class Planner {
     return candidate.cost * least_evaluations(candidate.kind);
   }
 
-  double largest_rate() const {
-    const Spectrum& s = spectrum_;
-    return std::max(s.lambda_on ? s.lambda_rate : 0.0, s.mu_on ? s.mu_rate : 0.0);
-  }
+  double largest_rate() const { return spectrum_.largest_rate(); }
 
   // The error that rounding alone comes to, in a run of so many steps with an order; 0: with the exponential
   // integrator, whose few steps do not count.
   double floor_of(double steps) const {
     const Spectrum& s = spectrum_;
-    double slowest = forever;
-    if (s.lambda_on) slowest = std::min(slowest, s.lambda_rate);
-    if (s.mu_on) slowest = std::min(slowest, s.mu_rate);
-    const double time = std::min(scene_.time.duration, memory / slowest);
+    const double time = std::min(scene_.time.duration, memory / s.slowest_rate());
     const double by_steps =
         edge_kernel_ ? rounding_of_edge_step * steps : rounding_of_root_step * std::sqrt(steps);
     return rounding * (rounding_of_run + rounding_of_radian * s.omega_max * time +
@@ -164,7 +159,7 @@ class Planner {
     const double fewest = steps_at(stretches_, coarsest(kind));
     // Out of reach or not, the trial runs show what is not.
     const double aim = std::max(accuracy_, 4.0 * floor_of(fewest));
-    const double tolerance = std::max(0.01 * aim, finest_tolerance);
+    const double tolerance = std::max(reference_share * aim, finest_tolerance);
     const bool short_of =
         columns_ || exponential_evaluations(tolerance) > yardstick_worth * least_evaluations(kind);
     const StepChoice choice =

@@ -11,7 +11,7 @@
 
 namespace rheo {
 
-Assembly assembly_for(const Scene& scene, Kernel kernel) {
+Assembly assembly_for(const Scene& scene, Kernel kernel, SimdLevel level) {
   const bool implicit = scene.time.integrator == IntegratorKind::implicit;
   const bool asked = kernel == Kernel::edge || kernel == Kernel::element;
   const char* name = kernel == Kernel::edge ? "edge" : "element";
@@ -21,7 +21,12 @@ Assembly assembly_for(const Scene& scene, Kernel kernel) {
         fmt::format("kernel {} has no matrices, which integrator = \"implicit\" factors: use auto or csr",
                     name));
   }
-  const bool by_nodes = scene.material.mass == Mass::lumped && !has_columns(scene) && !implicit;
+  if (asked && !scene.material.is_one_branch()) {
+    throw Error(Error::Kind::input,
+                fmt::format("kernel {} knows one Maxwell branch alone: use auto or csr", name));
+  }
+  const bool by_nodes = scene.material.mass == Mass::lumped && !has_columns(scene) && !implicit &&
+                        scene.material.is_one_branch();
   if (asked && !by_nodes) {
     throw Error(Error::Kind::input,
                 fmt::format("kernel {} needs mass = \"lumped\" and constraints = \"auto\" without "
@@ -29,7 +34,9 @@ Assembly assembly_for(const Scene& scene, Kernel kernel) {
                             name));
   }
   if (kernel == Kernel::element) return Assembly::elements;
-  return by_nodes && kernel != Kernel::csr ? Assembly::edges : Assembly::matrices;
+  if (kernel == Kernel::csr || !by_nodes) return Assembly::matrices;
+  const bool narrow = level == SimdLevel::baseline && !combined(scene.material);
+  return kernel == Kernel::automatic && narrow ? Assembly::elements : Assembly::edges;
 }
 
 std::unique_ptr<Body> make_body(const Scene& scene, const Model& model, int threads) {

@@ -158,10 +158,12 @@ void validate(const TimeSettings& time) {
 
 void validate(const PictureSettings& picture) {
   const std::string where = "[render]";
-  for (const int pixels : picture.size) {
-    if (pixels >= min_picture_side && pixels <= max_picture_side) continue;
-    refuse(where, fmt::format("size = [{}, {}]: {} to {} pixels each way are allowed", picture.size[0],
-                              picture.size[1], min_picture_side, max_picture_side));
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (picture.size[i] >= min_picture_size[i] && picture.size[i] <= max_picture_side) continue;
+    refuse(where,
+           fmt::format("size = [{}, {}]: a width of {} to {} and a height of {} to {} pixels are allowed",
+                       picture.size[0], picture.size[1], min_picture_size[0], max_picture_side,
+                       min_picture_size[1], max_picture_side));
   }
   const auto [low, high] = picture.range;
   if (!picture.range_auto && (!(low < high) || !std::isfinite(low) || !std::isfinite(high))) {

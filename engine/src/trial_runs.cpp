@@ -23,8 +23,6 @@ constexpr double finer = 1.02;    // from one refinement that is considered to t
 constexpr double confirmed =
     0.85;  // of the order: what neighbouring levels must show for it to be carried on
 constexpr double unconfirmed = 0.5;  // of the order: assumed where one difference is all there is
-constexpr double reference_share =
-    0.01;                            // of the wish: tolerance of the run that stands for the exact solution
 constexpr double most_kept = 128e6;  // bytes of a run's states
 
 [[noreturn]] void refuse(const Scene& scene, const std::string& text) {
@@ -201,10 +199,10 @@ class Trials {
 // them, by the order beyond the finest.
 class ErrorCurve {
  public:
-  ErrorCurve(std::vector<double> errors, int order) : errors_(std::move(errors)), order_(order) {}
+  ErrorCurve(std::vector<double> errors, double order) : errors_(std::move(errors)), order_(order) {}
 
   // From the differences of levels k and k + 1; ratio: of the finest level's error to the next one's.
-  static ErrorCurve from_differences(const std::vector<double>& differences, double ratio, int order) {
+  static ErrorCurve from_differences(const std::vector<double>& differences, double ratio, double order) {
     std::vector<double> errors(differences.size() + 1);
     errors.back() = differences.back() / (ratio - 1.0);
     for (std::size_t k = differences.size(); k-- > 0;) errors[k] = differences[k] + errors[k + 1];
@@ -224,8 +222,15 @@ class ErrorCurve {
 
  private:
   std::vector<double> errors_;
-  int order_;
+  double order_;
 };
+
+// The least that comes to the wish, or some that is beyond `most`.
+double refinement_for(const ErrorCurve& curve, double wish, double most) {
+  double refinement = 1.0;
+  while (curve.at(refinement) > wish && refinement <= most) refinement *= finer;
+  return refinement;
+}
 
 }  // namespace
 
@@ -276,11 +281,6 @@ StepChoice choose_step_for(const Scene& scene, const SimulationOptions& options,
   const auto choice = [&](double refinement, double estimate) {
     return StepChoice{trials.coarsest(), refinement, estimate, trials.evaluations()};
   };
-  const auto by_curve = [&](const ErrorCurve& curve) {
-    double refinement = 1.0;
-    while (curve.at(refinement) > wish) refinement *= finer;
-    return choice(refinement, curve.at(refinement));
-  };
 
   std::vector<double> found;  // errors of levels 0, 1, ..., or differences of neighbouring ones
   int level = 0;
@@ -300,17 +300,26 @@ StepChoice choose_step_for(const Scene& scene, const SimulationOptions& options,
     }
     found.push_back(*next);
     ++level;
-    if (measured) {
-      const double ratio = level > 1 ? found[found.size() - 2] / found.back() : 0.0;
-      if (found.back() <= wish || ratio >= enough) return by_curve({found, order});
-      continue;
-    }
     const double ratio = level > 1 ? found[found.size() - 2] / found.back() : 0.0;
-    if (ratio >= enough) return by_curve(ErrorCurve::from_differences(found, std::min(ratio, gain), order));
-    // Without the order: the coarser run of the last pair, if it is good enough even with half of it.
-    const auto careful = ErrorCurve::from_differences(found, std::exp2(unconfirmed * order), order);
-    const double refinement = std::exp2(level - 1);
-    if (careful.at(refinement) <= wish) return choice(refinement, careful.at(refinement));
+    const auto curve = [&](double factor, double beyond) {
+      return measured ? ErrorCurve(found, beyond) : ErrorCurve::from_differences(found, factor, beyond);
+    };
+    if (ratio >= enough || (measured && found.back() <= wish)) {
+      const ErrorCurve confirmed_curve = curve(std::min(ratio, gain), order);
+      const double refinement = refinement_for(confirmed_curve, wish, forever);
+      return choice(refinement, confirmed_curve.at(refinement));
+    }
+    // Without the order, with half of it or the less that shows: finer steps than those needed, where they
+    // cost no more than another trial run and the run that it might allow (which the full order puts at
+    // best). Beyond the finest level only where two levels show something; errors of one level tell nothing
+    // of it.
+    if (level > 1 ? ratio <= 1.0 : measured) continue;
+    const double shown = level > 1 ? std::min(unconfirmed * order, std::log2(ratio)) : unconfirmed * order;
+    const ErrorCurve careful = curve(std::exp2(shown), shown);
+    const double next_trial = std::exp2(measured ? level : level + 1);
+    const double fine = refinement_for(careful, wish, level > 1 ? 2.0 * next_trial : std::exp2(level));
+    const double hoped = refinement_for(curve(gain, order), wish, 2.0 * next_trial);
+    if (careful.at(fine) <= wish && fine <= next_trial + hoped) return choice(fine, careful.at(fine));
   }
   refuse(
       scene,

@@ -30,9 +30,11 @@ std::vector<Stretch> stretches_of(const Scene& scene);
 // Equal steps that they take.
 double steps_at(const std::vector<Stretch>& stretches, double step, double refinement = 1.0);
 
+constexpr double reference_share = 0.05;
+
 // What trial runs are compared with.
 enum class Yardstick {
-  exponential,  // a run of the exponential integrator, to a hundredth of the accuracy
+  exponential,  // a run of the exponential integrator, to reference_share of the accuracy
   halved_steps  // a run with steps half as long
 };
 

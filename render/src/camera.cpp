@@ -21,6 +21,11 @@ double last_true(double end, const Condition& holds) {
 
 }  // namespace
 
+bool near_picture(const Canvas& canvas, Point p) {
+  const auto w = static_cast<float>(canvas.width()), h = static_cast<float>(canvas.height());
+  return std::isfinite(p.x) && std::isfinite(p.y) && p.x > -w && p.x < 2 * w && p.y > -h && p.y < 2 * h;
+}
+
 std::array<double, 4> usable_bounds(std::array<double, 4> b) {
   for (std::size_t k = 0; k < 2; ++k) {
     double& low = b[k];

@@ -23,6 +23,9 @@ struct Camera {
   }
 };
 
+// A finite point in the picture or at most once its size beside it.
+bool near_picture(const Canvas& canvas, Point p);
+
 // Pixels beyond a point on its four sides.
 struct Margins {
   float left = 0, top = 0, right = 0, bottom = 0;

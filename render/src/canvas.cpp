@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cfloat>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "imgui_renderer.hpp"
@@ -31,6 +33,12 @@ std::string one_line(std::string_view s) {
     if (static_cast<unsigned char>(c) < 0x20) c = ' ';
   }
   return line;
+}
+
+constexpr Rect no_ink{FLT_MAX, FLT_MAX, -FLT_MAX, -FLT_MAX};
+
+Rect joined(const Rect& a, const Rect& b) {
+  return {std::min(a.x0, b.x0), std::min(a.y0, b.y0), std::max(a.x1, b.x1), std::max(a.y1, b.y1)};
 }
 
 ImVec2 vec(Point p) {
@@ -101,10 +109,28 @@ struct Canvas::Impl {
     return font.CalcTextSizeA(font.FontSize, FLT_MAX, 0, s.data(), s.data() + s.size()).x;
   }
 
-  void draw(ImFont& font, float x, float middle, Color color, std::string_view text) {
+  // Returns where the ink lies; an empty box, x1 < x0, without any.
+  Rect draw(ImFont& font, float x, float middle, Color color, std::string_view text) {
     const std::string s = one_line(text);
     const ImVec2 corner(std::round(x), std::round(middle - cap_middle * font.FontSize));
     list.AddText(&font, font.FontSize, corner, packed(color), s.data(), s.data() + s.size());
+    Rect ink = no_ink;
+    float pen = corner.x;
+    for (const char *c = s.data(), *end = c + s.size(); c < end;) {
+      unsigned int code = 0;
+      c += std::max(ImTextCharFromUtf8(&code, c, end), 1);
+      const ImFontGlyph* glyph = font.FindGlyph(static_cast<ImWchar>(code));
+      if (!glyph) continue;
+      if (glyph->Visible) {
+        ink = joined(ink, {pen + glyph->X0, corner.y + glyph->Y0, pen + glyph->X1, corner.y + glyph->Y1});
+      }
+      pen += glyph->AdvanceX;
+    }
+    return ink;
+  }
+
+  void note(std::string_view text, const Rect& ink) {
+    if (ink.x1 > ink.x0) texts.push_back({std::string(text), ink.x0, ink.y0, ink.x1, ink.y1});
   }
 
   ImguiRenderer renderer;
@@ -116,6 +142,7 @@ struct Canvas::Impl {
   std::array<float, 3> sizes{};
   std::array<ImFont*, 3> fonts{};
   std::array<ImFont*, 3> sub_fonts{};
+  std::vector<TextBox> texts;
 };
 
 Canvas::Canvas(const Gl& gl, int width, int height, std::string_view characters)
@@ -225,7 +252,7 @@ float Canvas::text_width(TextSize size, std::string_view s) const {
 void Canvas::text(Point at, Align align, TextSize size, Color color, std::string_view s) {
   const float w = align == Align::left ? 0.0f : text_width(size, s);
   const float x = at.x - (align == Align::right ? w : w / 2);
-  impl_->draw(*impl_->fonts[static_cast<std::size_t>(size)], x, at.y, color, s);
+  impl_->note(s, impl_->draw(*impl_->fonts[static_cast<std::size_t>(size)], x, at.y, color, s));
 }
 
 float Canvas::label_width(TextSize size, std::string_view s) const {
@@ -241,12 +268,14 @@ void Canvas::label(Point at, Align align, TextSize size, Color color, std::strin
   const auto k = static_cast<std::size_t>(size);
   const float w = label_width(size, s);
   float x = align == Align::left ? at.x : align == Align::right ? at.x - w : at.x - w / 2;
+  Rect ink = no_ink;
   for (const Run& run : typeset(s)) {
     ImFont& font = run.level == Level::base ? *impl_->fonts[k] : *impl_->sub_fonts[k];
     const float shift = run.level == Level::base ? 0.0f : (run.level == Level::lower ? 0.24f : -0.30f);
-    impl_->draw(font, x, at.y + shift * impl_->sizes[k], color, run.text);
+    ink = joined(ink, impl_->draw(font, x, at.y + shift * impl_->sizes[k], color, run.text));
     x += Impl::measure(font, run.text);
   }
+  impl_->note(s, ink);
 }
 
 void Canvas::label_upwards(Point at, TextSize size, Color color, std::string_view s) {
@@ -255,10 +284,19 @@ void Canvas::label_upwards(Point at, TextSize size, Color color, std::string_vie
                      std::round(static_cast<float>(impl_->height) / 2)};
   const Point to{std::round(at.x), std::round(at.y)};
   const int first = impl_->list.VtxBuffer.Size;
+  const std::size_t noted = impl_->texts.size();
   label(center, Align::center, size, color, s);
   for (int i = first; i < impl_->list.VtxBuffer.Size; ++i) {
     ImVec2& p = impl_->list.VtxBuffer[i].pos;
     p = {to.x + (p.y - center.y), to.y - (p.x - center.x)};
+  }
+  for (std::size_t i = noted; i < impl_->texts.size(); ++i) {
+    TextBox& t = impl_->texts[i];
+    const Rect lying{t.x0, t.y0, t.x1, t.y1};
+    t.x0 = to.x + (lying.y0 - center.y);
+    t.x1 = to.x + (lying.y1 - center.y);
+    t.y0 = to.y - (lying.x1 - center.x);
+    t.y1 = to.y - (lying.x0 - center.x);
   }
 }
 
@@ -272,6 +310,13 @@ std::string Canvas::fit(TextSize size, std::string_view s, float width) const {
     if (text_width(size, text + "…") <= width) return text + "…";
   }
   return text;
+}
+
+const std::vector<TextBox>& Canvas::texts() const {
+  return impl_->texts;
+}
+void Canvas::set_texts(std::vector<TextBox> texts) {
+  impl_->texts = std::move(texts);
 }
 
 void Canvas::flush() {

@@ -12,6 +12,9 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include "render/text_box.hpp"
 
 namespace render {
 
@@ -34,7 +37,7 @@ struct Color {
 enum class Align { left, center, right };
 enum class TextSize { small, normal, title };
 
-// The height of normal text in a picture: readable from 320 x 240 up to 3840 x 2160.
+// The height of normal text in a picture: readable from 240 x 160 up to 3840 x 2160.
 int text_height(int picture_width, int picture_height);
 
 class Canvas {
@@ -68,6 +71,10 @@ class Canvas {
   void label_upwards(Point at, TextSize size, Color color, std::string_view s);
   // `s` shortened to fit, with an ellipsis.
   std::string fit(TextSize size, std::string_view s, float width) const;
+
+  // All that was written since the last call of set_texts(), in order.
+  const std::vector<TextBox>& texts() const;
+  void set_texts(std::vector<TextBox> texts);
 
   void flush();
 

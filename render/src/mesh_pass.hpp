@@ -5,7 +5,7 @@
 //
 // Shapes   positions n x 2, scalar n or empty, triangles m x 3, boundary k x 2
 // Errors   std::runtime_error: more nodes than the driver's largest texture holds
-// Not here text, arrows, hatches (annotations.hpp)
+// Not here text, arrows, hatches (canvas.hpp, traction_arrows.hpp, hatches.hpp)
 #pragma once
 
 #include <array>

@@ -6,15 +6,17 @@
 #include <utility>
 #include <vector>
 
-#include "annotations.hpp"
 #include "camera.hpp"
 #include "canvas.hpp"
+#include "color_bar.hpp"
+#include "hatches.hpp"
 #include "mesh_pass.hpp"
 #include "render/context.hpp"
-#include "sheet_grid.hpp"
+#include "sheet_layout.hpp"
 #include "target.hpp"
 #include "theme.hpp"
 #include "ticks.hpp"
+#include "traction_arrows.hpp"
 
 namespace render {
 namespace {
@@ -96,17 +98,18 @@ struct MeshPicture::Impl {
     return p;
   }
 
-  // The bounds with space about them.
-  Framing framing(float margin) const { return {body.bounds, {margin, margin, margin, margin}}; }
-
-  // Space for hatches and lines, and for as much again.
-  float line_room() const { return 0.6f * canvas.text_size(TextSize::normal); }
-  float arrow_length() const { return 2.8f * canvas.text_size(TextSize::normal); }
-  float sheet_arrow_length() const { return 2.1f * canvas.text_size(TextSize::normal); }
+  // Space for hatches and lines, and for as much again; little of a small area.
+  float line_room(const Rect& area) const {
+    return std::min(0.6f * canvas.text_size(TextSize::normal), 0.08f * std::min(area.width(), area.height()));
+  }
+  float arrow_length(const Rect& area) const {
+    return std::min(2.8f * canvas.text_size(TextSize::normal), 0.2f * std::min(area.width(), area.height()));
+  }
 
   void begin() {
     context.make_current();
     target.bind();
+    canvas.set_texts({});
     gl.Disable(GL_DEPTH_TEST);
     gl.Disable(GL_CULL_FACE);
     gl.Disable(GL_SCISSOR_TEST);
@@ -115,16 +118,17 @@ struct MeshPicture::Impl {
     gl.Clear(GL_COLOR_BUFFER_BIT);
   }
 
-  void draw_body(const Camera& camera, const MeshFrame& frame, float longest_arrow, const Rect& value_area) {
+  void draw_body(const Camera& camera, const MeshFrame& frame, float hatch_size, float longest_arrow,
+                 const Rect& value_area) {
     const float unit = canvas.unit();
-    draw_hatches(canvas, camera, body.boundary, frame.positions, frame.held, mark);
+    draw_hatches(canvas, camera, body.boundary, frame.positions, frame.held, hatch_size, mark);
     canvas.flush();
     pass.set_nodes(frame.positions, frame.scalar);
     pass.fill(camera, std::max(0.8f, 0.9f * unit));
     Color rest = theme::ink;
     rest.a = 130;
     pass.rest_outline(camera, {rest, std::max(1.0f, 1.2f * unit), 9 * unit});
-    pass.outline(camera, {theme::ink, std::max(1.4f, 2.0f * unit), 0});
+    pass.outline(camera, {theme::ink, theme::outline_width(unit), 0});
     arrows.draw(canvas, camera, frame, body.arrow_scale, longest_arrow, value_area);
   }
 
@@ -143,10 +147,13 @@ struct MeshPicture::Impl {
   void draw_still(const MeshFrame& frame, const Parts& p, const std::string& title) {
     begin();
     // The arrows of other frames are not known: room for them on every side.
-    const float arrow_room = body.arrow_scale > 0 ? arrow_length() : 0.0f;
-    draw_body(framing(line_room() + arrow_room).fit(p.body), frame, arrow_length(), p.body);
+    const float arrow = arrow_length(p.body);
+    const float margin = line_room(p.body) + (body.arrow_scale > 0 ? arrow : 0.0f);
+    const Framing framing(body.bounds, {margin, margin, margin, margin});
+    draw_body(framing.fit(p.body), frame, 1, arrow, p.body);
     draw_heading(p, title);
     canvas.flush();
+    still_texts = canvas.texts();
   }
 
   Context& context;
@@ -161,6 +168,7 @@ struct MeshPicture::Impl {
   std::string last_title;       // as much of it as its time left room for
   std::optional<Target> still;  // all of it but its time, from its first repetition on
   bool still_current = false;
+  std::vector<TextBox> still_texts;
   PictureCounters counters;
 };
 
@@ -183,6 +191,7 @@ void MeshPicture::draw(const MeshFrame& frame, Image& out) {
   if (repeated && m.still_current) {
     m.target.copy(*m.still);
     m.target.bind();
+    m.canvas.set_texts(m.still_texts);
     ++m.counters.frames_repeated;
   } else {
     m.draw_still(frame, p, title);
@@ -209,48 +218,28 @@ Image MeshPicture::sheet(std::span<const MeshFrame> frames) {
   Impl& m = *impl_;
   m.begin();
   const Impl::Parts p = m.parts();
-  const float text = m.canvas.text_size(TextSize::small);
-  const float label = 1.5f * text;  // a panel's time above its shape
-  const auto framing_with = [&](float longest_arrow) {
-    Framing framing = m.framing(m.line_room());
-    for (const MeshFrame& frame : frames)
-      m.arrows.add_to(framing, m.canvas, frame, m.body.arrow_scale, longest_arrow);
-    return framing;
-  };
-  Framing framing = framing_with(m.sheet_arrow_length());
-  const auto below_label = [label](Rect cell) {
-    cell.y0 = std::min(cell.y0 + label, cell.y1);
-    return cell;
-  };
-  float widest = 0.0f;
-  for (const MeshFrame& frame : frames)
-    widest = std::max(widest, m.canvas.text_width(TextSize::small, time_text(frame.time)));
-  // Cells too narrow for their times are taken only where no grid has others.
-  constexpr double cramped = 1e-6;
-  const Grid grid = choose_grid(static_cast<int>(frames.size()), p.body, [&](const Rect& cell) {
-    const double scale = framing.fit(below_label(cell)).scale;
-    return cell.width() < widest + text ? cramped * scale : scale;
-  });
-  // In low cells shorter arrows: they keep out of the times above, and leave the shape most of the room.
-  const float longest_arrow =
-      std::min(m.sheet_arrow_length(), 0.6f * below_label(grid_cell(grid, p.body, 0)).height());
-  if (longest_arrow < m.sheet_arrow_length()) framing = framing_with(longest_arrow);
+  std::vector<double> times;
+  std::vector<TractionArrows::Arrow> arrows;
+  for (const MeshFrame& frame : frames) {
+    times.push_back(frame.time);
+    const std::vector<TractionArrows::Arrow> more = m.arrows.arrows(frame, m.body.arrow_scale);
+    arrows.insert(arrows.end(), more.begin(), more.end());
+  }
+  const SheetLayout layout = layout_sheet(m.canvas, p.body, m.body.bounds, times, arrows);
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    const Rect room = below_label(grid_cell(grid, p.body, static_cast<int>(i)));
-    const Camera camera = framing.fit(room);
-    m.draw_body(camera, frames[i], longest_arrow, {});
-    // The time stands above what the camera shows, not above an empty part of the cell.
-    const float top = framing.covered(camera, room).y0;
-    const std::string time = time_text(frames[i].time);
-    const float rightmost = room.x1 - m.canvas.text_width(TextSize::small, time);
-    const Point at{std::min(camera.pixel(m.body.bounds[0], 0).x, rightmost), top - label + 0.5f * text};
-    m.canvas.text(at, Align::left, TextSize::small, theme::ink, time);
+    const SheetLayout::Panel& panel = layout.panels[i];
+    m.draw_body(panel.camera, frames[i], layout.hatch_size, layout.longest_arrow, {});
+    m.canvas.text(panel.time_at, Align::left, TextSize::small, theme::ink, panel.time);
   }
   m.draw_heading(p, m.title_beside(p, 0.0f));
   m.canvas.flush();
   Image out;
   m.target.read(out);
   return out;
+}
+
+const std::vector<TextBox>& MeshPicture::texts() const {
+  return impl_->canvas.texts();
 }
 
 PictureCounters MeshPicture::counters() const {

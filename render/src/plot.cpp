@@ -144,9 +144,7 @@ class PlotPainter {
     for (std::size_t k = 0; k < plot_.series.size(); ++k) draw_series(k);
     if (!legend_.empty()) draw_legend();
     const float title_y = margin() + canvas_.text_size(TextSize::title) / 2;
-    const std::string title =
-        canvas_.fit(TextSize::title, plot_.title, static_cast<float>(canvas_.width()) - 2 * margin());
-    canvas_.text({margin(), title_y}, Align::left, TextSize::title, theme::ink, title);
+    canvas_.text({margin(), title_y}, Align::left, TextSize::title, theme::ink, fitting_title());
   }
 
  private:
@@ -154,6 +152,19 @@ class PlotPainter {
     std::size_t series;
     Point at;
   };
+
+  // Of "whose: what" too long for the picture, `whose` is cut.
+  std::string fitting_title() const {
+    const float room = static_cast<float>(canvas_.width()) - 2 * margin();
+    const std::size_t colon = plot_.title.rfind(": ");
+    if (colon != std::string::npos && canvas_.text_width(TextSize::title, plot_.title) > room) {
+      const std::string what = plot_.title.substr(colon);
+      const std::string whose = canvas_.fit(TextSize::title, plot_.title.substr(0, colon),
+                                            room - canvas_.text_width(TextSize::title, what));
+      if (!whose.empty()) return whose + what;
+    }
+    return canvas_.fit(TextSize::title, plot_.title, room);
+  }
 
   float margin() const { return 1.1f * canvas_.text_size(TextSize::normal); }
   float sample() const { return 2.4f * text_; }  // length of a line in the legend
@@ -179,7 +190,11 @@ class PlotPainter {
     const float normal = canvas_.text_size(TextSize::normal);
     float top = margin() + (plot_.title.empty() ? 0 : canvas_.text_size(TextSize::title) + 0.6f * normal);
     top = place_legend(top);
-    const float bottom = h - margin() - (plot_.x_label.empty() ? 0 : 1.5f * normal) - 1.7f * text_;
+    top_ = top;
+    float bottom = h - margin() - (plot_.x_label.empty() ? 0 : 1.5f * normal) - 1.7f * text_;
+    // Low pictures: the name of the axis beside its numbers.
+    name_beside_ = !plot_.x_label.empty() && bottom - top < 6 * text_;
+    if (name_beside_) bottom += 1.5f * normal;
     axes_.y_ticks = ticks_of(axes_.y, std::clamp(static_cast<int>((bottom - top) / (2.2f * text_)), 2, 9));
     if (axes_.y_ticks.exponent != 0) top += 0.9f * text_;
     float numbers = 0;
@@ -189,8 +204,58 @@ class PlotPainter {
     axes_.area = {std::round(left), std::round(top + 0.4f * text_), std::round(w - 1.6f * margin()),
                   std::round(bottom)};
     if (axes_.area.width() < 4 || axes_.area.height() < 4) axes_.area = {left, top, left + 4, top + 4};
-    axes_.x_ticks =
-        ticks_of(axes_.x, std::clamp(static_cast<int>(axes_.area.width() / (4.5f * text_)), 2, 11));
+    const int most = std::clamp(static_cast<int>(axes_.area.width() / (4.5f * text_)), 2, 11);
+    axes_.x_ticks = ticks_of(axes_.x, most);
+    // More of them where the axis' name beside them would leave but one.
+    for (int more = 1; more < 4 && numbers_left() < 2; ++more) axes_.x_ticks = ticks_of(axes_.x, most + more);
+    keep_apart(axes_.y_ticks, [&](std::size_t i) {
+      const float y = axes_.pixel(axes_.x.low, axes_.y_ticks.at[i]).y;
+      return std::array<float, 2>{y - 0.6f * text_, y + 0.6f * text_};
+    });
+    keep_apart(axes_.x_ticks, [&](std::size_t i) {
+      const float x = axes_.pixel(axes_.x_ticks.at[i], axes_.y.low).x;
+      const float half = canvas_.label_width(TextSize::small, axes_.x_ticks.labels[i]) / 2 + 0.3f * text_;
+      return std::array<float, 2>{x - half, x + half};
+    });
+  }
+
+  float right_end() const { return static_cast<float>(canvas_.width()) - 0.5f * margin(); }
+
+  // How far to the right numbers may reach below the x axis.
+  float numbers_end() const {
+    if (!name_beside_) return static_cast<float>(canvas_.width());
+    return right_end() - canvas_.label_width(TextSize::small, x_name()) - 0.5f * text_;
+  }
+  bool has_room(std::size_t x_tick) const {
+    const float half = canvas_.label_width(TextSize::small, axes_.x_ticks.labels[x_tick]) / 2;
+    return axes_.pixel(axes_.x_ticks.at[x_tick], axes_.y.low).x + half <= numbers_end();
+  }
+  std::size_t numbers_left() const {
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < axes_.x_ticks.at.size(); ++i) n += has_room(i) ? 1 : 0;
+    return n;
+  }
+
+  // Every second, every third, ... label where all would touch each other; `reach`: from where to where.
+  template <class Reach>
+  static void keep_apart(Ticks& ticks, const Reach& reach) {
+    const auto touch = [&](std::size_t every) {
+      for (std::size_t i = every; i < ticks.at.size(); i += every) {
+        const auto a = reach(i - every), b = reach(i);
+        if (a[0] < b[1] && b[0] < a[1]) return true;
+      }
+      return false;
+    };
+    std::size_t every = 1;
+    while (touch(every)) ++every;
+    for (std::size_t i = 0; i < ticks.at.size(); ++i)
+      if (i % every != 0) ticks.labels[i].clear();
+  }
+
+  // In units of what the exponent says; on the numbers' line its left end.
+  std::string x_name() const {
+    if (axes_.x_ticks.exponent == 0) return plot_.x_label;
+    return fmt::format("{} ×10^{}", plot_.x_label, axes_.x_ticks.exponent);
   }
 
   // Entries from left to right, in as many lines as needed; returns where the next thing below may begin.
@@ -251,6 +316,7 @@ class PlotPainter {
     for (std::size_t i = 0; i < axes_.x_ticks.at.size(); ++i) {
       const float x = std::round(axes_.pixel(axes_.x_ticks.at[i], axes_.y.low).x);
       canvas_.line({x, a.y1}, {x, a.y1 + tick}, theme::soft_ink, thin_);
+      if (!has_room(i)) continue;
       canvas_.label({x, a.y1 + 1.1f * text_}, Align::center, TextSize::small, theme::ink,
                     axes_.x_ticks.labels[i]);
     }
@@ -272,16 +338,32 @@ class PlotPainter {
       canvas_.label({a.x0, a.y0 - 0.8f * text_}, Align::left, TextSize::small, theme::ink,
                     fmt::format("×10^{}", axes_.y_ticks.exponent));
     }
-    const float x_label_y = a.y1 + 1.9f * text_ + 0.7f * normal;
-    if (axes_.x_ticks.exponent != 0) {
-      canvas_.label({a.x1, x_label_y}, Align::right, TextSize::small, theme::ink,
-                    fmt::format("×10^{}", axes_.x_ticks.exponent));
+    if (name_beside_) {
+      canvas_.label({right_end(), a.y1 + 1.1f * text_}, Align::right, TextSize::small, theme::ink, x_name());
+    } else {
+      const float x_label_y = a.y1 + 1.9f * text_ + 0.7f * normal;
+      if (axes_.x_ticks.exponent != 0) {
+        canvas_.label({a.x1, x_label_y}, Align::right, TextSize::small, theme::ink,
+                      fmt::format("×10^{}", axes_.x_ticks.exponent));
+      }
+      canvas_.label({(a.x0 + a.x1) / 2, x_label_y}, Align::center, TextSize::normal, theme::ink,
+                    plot_.x_label);
     }
-    canvas_.label({(a.x0 + a.x1) / 2, x_label_y}, Align::center, TextSize::normal, theme::ink, plot_.x_label);
-    if (!plot_.y_label.empty()) {
-      canvas_.label_upwards({margin() + 0.45f * normal, (a.y0 + a.y1) / 2}, TextSize::normal, theme::ink,
-                            plot_.y_label);
-    }
+    draw_y_name();
+  }
+
+  // Upwards at the left, in the middle of its axis or as near as title, legend and the picture's end allow.
+  void draw_y_name() {
+    if (plot_.y_label.empty()) return;
+    const float normal = canvas_.text_size(TextSize::normal);
+    const float bottom = static_cast<float>(canvas_.height()) - 0.4f * margin();
+    const TextSize size = canvas_.label_width(TextSize::normal, plot_.y_label) <= bottom - top_
+                              ? TextSize::normal
+                              : TextSize::small;
+    const float half = canvas_.label_width(size, plot_.y_label) / 2;
+    const float middle =
+        std::clamp((axes_.area.y0 + axes_.area.y1) / 2, std::min(top_ + half, bottom - half), bottom - half);
+    canvas_.label_upwards({margin() + 0.45f * normal, middle}, size, theme::ink, plot_.y_label);
   }
 
   void draw_series(std::size_t k) {
@@ -315,13 +397,15 @@ class PlotPainter {
   const Plot& plot_;
   Axes axes_;
   std::vector<Entry> legend_;
+  float top_ = 0;  // of what is left by title and legend
+  bool name_beside_ = false;
   float text_ = 0;
   float thin_ = 1;
 };
 
 }  // namespace
 
-Image draw_plot(Context& context, const Plot& plot) {
+Image draw_plot(Context& context, const Plot& plot, std::vector<TextBox>* texts) {
   context.make_current();
   const Gl& gl = context.gl();
   const Target target(gl, context.width(), context.height());
@@ -332,6 +416,7 @@ Image draw_plot(Context& context, const Plot& plot) {
   gl.Clear(GL_COLOR_BUFFER_BIT);
   PlotPainter(canvas, plot).draw();
   canvas.flush();
+  if (texts) *texts = canvas.texts();
   Image out;
   target.read(out);
   return out;

@@ -1,6 +1,7 @@
 // The few colours of all pictures.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "canvas.hpp"
@@ -19,5 +20,10 @@ inline constexpr Color wire{16, 20, 32, 120};      // mesh lines
 // design" (2008).
 inline constexpr std::array<Color, 6> series{
     {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}}};
+
+// Of a body's outline, in a picture whose lines have the unit `unit`.
+inline float outline_width(float unit) {
+  return std::max(1.4f, 2.0f * unit);
+}
 
 }  // namespace render::theme

@@ -72,6 +72,13 @@ Ticks log_ticks(double low, double high, int most) {
     return ticks;
   }
   const int every = std::max(1, (last - first + most) / most);
+  // Multiples of `every`; where the range has but one of them, from its first power on.
+  const auto multiples = [&] {
+    int n = 0;
+    for (int k = first; k <= last; ++k) n += k % every == 0 ? 1 : 0;
+    return n;
+  };
+  const int start = multiples() < 2 && most > 1 ? first : 0;
   for (int k = first - 1; k <= last && every == 1; ++k) {
     for (int m = 2; m < 10; ++m) {
       const double value = m * std::pow(10.0, k);
@@ -79,7 +86,7 @@ Ticks log_ticks(double low, double high, int most) {
     }
   }
   for (int k = first; k <= last; ++k) {
-    if (k % every != 0) {
+    if ((k - start) % every != 0) {
       ticks.minor.push_back(std::pow(10.0, k));
       continue;
     }
@@ -105,6 +112,35 @@ std::string time_text(double seconds) {
   if (size == 0 || size >= 0.0095) return fmt::format("t = {:.{}f} s", seconds, size >= 1000 ? 1 : 3);
   if (size >= 0.95e-5) return fmt::format("t = {:.3f} ms", seconds * 1e3);
   return fmt::format("t = {:.3g} µs", seconds * 1e6);
+}
+
+std::vector<std::string> short_times(std::span<const double> seconds) {
+  double longest = 0;
+  for (const double t : seconds)
+    if (std::isfinite(t)) longest = std::max(longest, std::abs(t));
+  struct Unit {
+    const char* name;
+    double factor;
+  };
+  const Unit unit = longest == 0 || longest >= 0.0095 ? Unit{"s", 1}
+                    : longest >= 0.95e-5              ? Unit{"ms", 1e3}
+                                                      : Unit{"µs", 1e6};
+  const double digits = std::max(std::log10(longest * unit.factor), 0.0);
+  const int most = std::max(3 - std::max(static_cast<int>(digits) - 1, 0), 0);
+  int decimals = 0;
+  for (; decimals < most; ++decimals) {
+    const double power = std::pow(10.0, decimals);
+    const bool exact = std::ranges::all_of(seconds, [&](double t) {
+      const double scaled = t * unit.factor * power;
+      return !std::isfinite(t) || std::abs(scaled - std::round(scaled)) < 5e-4 * power;
+    });
+    if (exact) break;
+  }
+  std::vector<std::string> texts;
+  for (const double t : seconds)
+    texts.push_back(std::isfinite(t) ? fmt::format("{} {}", written(t * unit.factor, decimals), unit.name)
+                                     : "?");
+  return texts;
 }
 
 }  // namespace render

@@ -3,6 +3,7 @@
 // Errors   none: an empty or non-finite range gives no ticks
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,5 +29,9 @@ std::string with_unit(double value, const std::string& unit);
 
 // "t = 0.517 s".
 std::string time_text(double seconds);
+
+// "0.25 s": all in one unit, with as many decimals as tell each from its rounded value: up to three, from
+// 100 on two, from 1000 on one.
+std::vector<std::string> short_times(std::span<const double> seconds);
 
 }  // namespace render

@@ -17,7 +17,7 @@ using testing::SizeIs;
 
 TEST(SheetFrames, AreEquallySpacedWhereTheRunAllowsIt) {
   // 5 s at 60 a second: every half second, the release at 1 s among them.
-  EXPECT_THAT(app::sheet_frames(301, 60.0, {1.0}, std::nullopt),
+  EXPECT_THAT(app::sheet_frames(301, 60.0, {1.0}, std::nullopt, 99),
               ElementsAre(0, 30, 60, 90, 120, 150, 180, 210, 240, 270, 300));
 }
 
@@ -25,7 +25,8 @@ TEST(SheetFrames, IncludeFirstLastAndEventsOfAnyRun) {
   for (const std::int64_t outputs : {9, 10, 47, 101, 302, 1234}) {
     const double rate = 30.0;
     const std::int64_t event = outputs / 3;
-    const auto frames = app::sheet_frames(outputs, rate, {static_cast<double>(event) / rate}, std::nullopt);
+    const auto frames =
+        app::sheet_frames(outputs, rate, {static_cast<double>(event) / rate}, std::nullopt, 99);
     EXPECT_GE(frames.size(), 8u);
     EXPECT_LE(frames.size(), 12u);
     EXPECT_EQ(frames.front(), 0);
@@ -36,9 +37,16 @@ TEST(SheetFrames, IncludeFirstLastAndEventsOfAnyRun) {
 }
 
 TEST(SheetFrames, AreAllOutputsOfAShortRunAndAsManyAsWanted) {
-  EXPECT_THAT(app::sheet_frames(3, 60.0, {}, std::nullopt), ElementsAre(0, 1, 2));
-  EXPECT_THAT(app::sheet_frames(1, 60.0, {}, 5), ElementsAre(0));
-  EXPECT_THAT(app::sheet_frames(301, 60.0, {}, 4), ElementsAre(0, 100, 200, 300));
+  EXPECT_THAT(app::sheet_frames(3, 60.0, {}, std::nullopt, 99), ElementsAre(0, 1, 2));
+  EXPECT_THAT(app::sheet_frames(1, 60.0, {}, 5, 99), ElementsAre(0));
+  EXPECT_THAT(app::sheet_frames(301, 60.0, {}, 4, 99), ElementsAre(0, 100, 200, 300));
+}
+
+TEST(SheetFrames, AreFewerInSmallPicturesUnlessANumberIsWanted) {
+  const auto few = app::sheet_frames(301, 60.0, {1.0}, std::nullopt, 6);
+  EXPECT_THAT(few, ElementsAre(0, 60, 120, 180, 240, 300));
+  EXPECT_THAT(app::sheet_frames(301, 60.0, {}, std::nullopt, 0), ElementsAre(0, 300));
+  EXPECT_THAT(app::sheet_frames(301, 60.0, {}, 10, 3), SizeIs(10));
 }
 
 TEST(EventTimes, AreTheInnerEndsOfWindowsAndKeys) {

@@ -77,9 +77,9 @@ TEST_F(Render, NumbersAreThoseOfRun) {
 
 TEST_F(Render, PicturesHaveTheSceneSizeOrTheOneAskedFor) {
   render("scene");
-  render("asked", {"--size", "200x120"});
+  render("asked", {"--size", "240x160"});
   EXPECT_EQ(png_size(read_text(folder() / "scene/frames/frame_00003.png")), std::pair(320u, 180u));
-  EXPECT_EQ(png_size(read_text(folder() / "asked/frames/frame_00003.png")), std::pair(200u, 120u));
+  EXPECT_EQ(png_size(read_text(folder() / "asked/frames/frame_00003.png")), std::pair(240u, 160u));
 }
 
 TEST_F(Render, FramesDoNotDependOnThreadsOrRepetition) {
@@ -129,7 +129,7 @@ TEST_F(Render, DrawsTheFramesBeforeADivergence) {
 // 5,001 frames: far more than are drawn before the kill.
 TEST_F(Render, AKilledOneLeavesNoFrameAmongTheNextOnes) {
   rheo_killed_at("r/frames/frame_00003.png",
-                 {"render", "beam.toml", "-o", "r", "--frame-rate", "1e4", "--size", "64x64"});
+                 {"render", "beam.toml", "-o", "r", "--frame-rate", "1e4", "--size", "240x160"});
   expect_failure(rheo({"render", "beam.toml", "-o", "r"}), 2, {"r: ", "interrupted run", "--force"});
   render("r", {"--frame-rate", "4", "--force"});
   EXPECT_THAT(frames("r"), ElementsAre("r/frames/frame_00000.png", "r/frames/frame_00001.png",

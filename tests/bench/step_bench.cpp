@@ -5,9 +5,13 @@
 //                              baseline
 //   step/<kernel>/<triangles>  the engine's integrator on its operator, without energies
 //   step2/edge/<triangles>     the same with two threads
+//   start/<triangles>          a simulation made ready: the kernel's numbers, the stable step; no file is
+//   read
 //
-// Counters: ns a triangle and step; the bytes and flops that a step must at least move and do; the hash of
-// the state after some first steps (one for a kernel and level, with any number of threads). Run with
+// Counters: ns a triangle and step; the bytes and flops that a step must at least move and do; for the edge
+// kernel, whose sweeps pass through the mesh together, also the bytes of one such pass, which come from
+// memory where the mesh is larger than the caches; the hash of the state after some first steps (one for a
+// kernel and level, with any number of threads). Run with
 // --benchmark_enable_random_interleaving=true and --benchmark_repetitions=9 on a machine that does nothing
 // else, and compare medians.
 
@@ -120,6 +124,9 @@ void step_edge(benchmark::State& state) {
   // A sweep reads an edge's 5 numbers (3 on large meshes) and index, and a node's x, base and inverse mass,
   // and writes out; u once a step.
   const double edge_bytes = 8.0 * (form.level_row + 1) + 4.0;
+  // A pass: all that once, u and both of the integrator's buffers included.
+  state.counters["pass_bytes/tri"] =
+      (edge_bytes * edges + nodes * (16 + 64 + 64 + 2 * 64)) / c.scene.mesh.triangle_count();
   run_body(state, c, body, 4 * (edge_bytes * edges + nodes * (48 + 48 + 16 + 48)) + 32 * nodes,
            4 * (20 * edges + 36 * nodes));
 }
@@ -149,6 +156,15 @@ void sizes(benchmark::internal::Benchmark* b) {
   b->UseRealTime();
 }
 
+void start(benchmark::State& state) {
+  const Case& c = case_of(static_cast<int>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(rheo::Simulation(c.scene, {.energies = false, .threads = 1}));
+  state.counters["ns/tri"] =
+      benchmark::Counter(1e-9 * c.scene.mesh.triangle_count(),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+BENCHMARK(start)->Name("start")->Apply(sizes);
 BENCHMARK(step_csr)->Name("step/csr")->Apply(sizes);
 BENCHMARK(step_assembled)->Name("step/assembled_horner")->Apply(sizes);
 BENCHMARK(step_edge_best<1>)->Name("step/edge")->Apply(sizes);

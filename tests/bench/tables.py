@@ -96,12 +96,25 @@ NAMES = {
     "step/edge_avx512": "edge kernel, AVX-512",
     "step/edge": "edge kernel, best instructions",
     "step2/edge": "edge kernel, two threads",
+    "step2/element": "element kernel, two threads",
+    "step/element_baseline": "element kernel, baseline instructions",
+    "step/element_avx2": "element kernel, AVX2",
+    "step/element_avx512": "element kernel, AVX-512",
 }
 
 
 def in_order(table):
     known = list(NAMES)
     return dict(sorted(table.items(), key=lambda item: known.index(item[0]) if item[0] in known else len(known)))
+
+
+def print_start(start, steps):
+    cells = []
+    for size, records in sorted(start.items()):
+        middle = nanoseconds(records)[0]
+        step = f": {middle / nanoseconds(steps[size])[0]:.0f} steps" if size in steps else ""
+        cells.append(f"{size_name(size)} {middle * size * 1e-6:.3g} ms{step}")
+    print("\nStart-up, files apart, and how many steps take as long: " + "; ".join(cells) + ".")
 
 
 def print_steps(table):
@@ -196,6 +209,18 @@ def print_roofline(table, found):
                 f"| {NAMES.get(kernel, kernel)} | {size_name(size)} | {r['bytes/tri']:.0f} | {r['flops/tri']:.0f} | "
                 f"{moved * 1e-9:.3g} | {100 * moved / rate:.0f} % | {done * 1e-9:.3g} | "
                 f"{100 * done / (top * threads):.0f} % | {100 * bound / seconds:.0f} % |"
+            )
+    for kernel in ("step/edge", "step2/edge"):
+        threads = 2 if kernel.startswith("step2") else 1
+        for size, records in sorted(table.get(kernel, {}).items()):
+            passed = records[0].get("pass_bytes/tri", 0.0)
+            if passed * size < 1e8:  # in cache
+                continue
+            megabytes, rate = triad.get(threads, triad[1])[-1]
+            moved = passed / (nanoseconds(records)[0] * 1e-9)
+            print(
+                f"\n{NAMES[kernel]}, {size_name(size)}: one pass a step moves {passed:.0f} bytes a triangle through "
+                f"memory: {moved * 1e-9:.3g} GB/s, {100 * moved / rate:.0f} % of the triad's at {megabytes} MB."
             )
     print(
         "\nMore than 100 % of the bandwidth: all of a step's sweeps pass through the mesh together, so that bytes "
@@ -344,7 +369,9 @@ def main():
     if peer.exists():
         table.update(by_kernel(run_benchmark(peer, f"/({sizes})/", arguments)))
     table = in_order(table)
+    start = table.pop("start", {})
     print_steps(table)
+    print_start(start, table.get("step/edge", {}))
     if peer.exists():
         print_peer(table)
     else:

@@ -16,6 +16,7 @@
 #include "rheo/simulation.hpp"
 #include "support/event_scenes.hpp"
 #include "support/exact.hpp"
+#include "support/slivers.hpp"
 
 namespace rheo::test {
 namespace {
@@ -105,7 +106,7 @@ Scene thin(Mass mass) {  // a long strip: frequencies far apart
   return scene;
 }
 
-Scene caught_and_tied(Mass mass) {
+Scene tied_and_ramped(Mass mass) {
   Scene scene = tied(mass);
   scene.tractions[0].keys = {{0.2, {0, 0}}, {0.4567, {10, -3}}, {0.7, {-5, 2}}};
   return scene;
@@ -148,12 +149,15 @@ std::vector<AccuracyCase> cases() {
       {"Stiff", [] { return with_material(off_grid_beam(lumped), 7e6, 5e6, 4e6, 2e7, 2e5); }, 60, 1e-6, any},
       // General constraints: RK4 it is.
       {"Tied", [] { return tied(lumped); }, 60, 1e-6, any},
-      {"TiedRamp", [] { return caught_and_tied(lumped); }, 10, 1e-3, any},
+      {"TiedRamp", [] { return tied_and_ramped(lumped); }, 10, 1e-3, any},
       {"PulledTogether", [] { return pulled_together(consistent); }, 60, 1e-5, any},
       {"BaumgartePull", [] { return baumgarte(off_grid_beam(lumped)); }, 100, 1e-8, any},
       {"BaumgarteMove", [] { return baumgarte(moved(consistent, Profile::smooth)); }, 30, 1e-4, any},
       {"BaumgarteLinear", [] { return baumgarte(moved(lumped, Profile::linear)); }, 20, 1e-2, any},
       {"BaumgarteRelaxesFast", [] { return with_material(tied(lumped), 7, 5, 0.1, 0.5); }, 60, 1e-9, any},
+      // Slivers: the implicit integrator passes over them.
+      {"Slivers", [] { return with_slivers(ramped(lumped), 1e-4); }, 10, 1e-3, any},
+      {"SliversTied", [] { return with_slivers(tied_and_ramped(lumped), 1e-3); }, 10, 1e-2, any},
       // As asked.
       {"Rk4Pull", [] { return off_grid_beam(lumped); }, 60, 1e-8, rk4},
       {"Rk4Caught", [] { return caught(lumped); }, 10, 1e-2, rk4},
@@ -277,6 +281,26 @@ TEST(AccuracyPlan, IsWhatTheSimulationRuns) {
   EXPECT_EQ(simulation.scene().time.accuracy, 0.0);
   EXPECT_EQ(plan.trial_evaluations, 0.0);
   EXPECT_FALSE(Simulation(off_grid_beam(Mass::lumped)).plan());
+}
+
+// What the choice rests on: a solve with the implicit integrator's factor costs no more than 20 evaluations.
+TEST(AccuracyPlan, PassesOverSliversForLessThanTheirVibrationsCost) {
+  Scene scene = asking(with_slivers(ramped(Mass::lumped), 1e-4), 1e-3);
+  scene.time.frame_rate = 10;
+  const auto run = [](Simulation& simulation) {
+    EXPECT_FALSE(simulation.advance(simulation.scene().time.duration));
+    return simulation.counters();
+  };
+  Simulation simulation(scene, {.energies = false});
+  const AccuracyPlan plan = simulation.plan().value();
+  EXPECT_EQ(plan.integrator, IntegratorKind::implicit);
+  const Counters counters = run(simulation);
+  const double solves = static_cast<double>(counters.shifted_solves) + plan.trial_evaluations;
+  scene.time.integrator = IntegratorKind::exponential;
+  Simulation exponential(scene, {.energies = false});
+  EXPECT_LT(20.0 * solves, 0.5 * static_cast<double>(run(exponential).force_evaluations));
+  RecordProperty("solves", std::to_string(solves));
+  RecordProperty("exponential", std::to_string(exponential.counters().force_evaluations));
 }
 
 TEST(AccuracyPlan, RefinesEveryIntervalAlike) {

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include "rheo/error.hpp"
@@ -16,6 +15,7 @@
 #include "shifted_system.hpp"
 #include "support/event_scenes.hpp"
 #include "support/exact.hpp"
+#include "support/slivers.hpp"
 
 namespace rheo::test {
 namespace {
@@ -37,30 +37,6 @@ Scene in_free_flight(Mass mass) {
   Scene scene = off_grid_beam(mass);
   scene.fixes.clear();
   scene.body_acceleration = {0.5, -9.81};
-  return scene;
-}
-
-// A row of triangles so flat that their small angles are `degrees`, between two of ordinary ones.
-Scene with_slivers(Mass mass, double degrees) {
-  Scene scene = off_grid_beam(mass);
-  const double flat = std::tan(degrees * std::numbers::pi / 180);
-  Mesh mesh;
-  for (const double y : {0.0, 0.5, 0.5 + flat, 1.0}) {
-    for (int column = 0; column < 3; ++column) mesh.points.push_back({1.0 * column, y});
-  }
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 2; ++column) {
-      const int a = 3 * row + column;
-      mesh.triangles.push_back({a, a + 1, a + 3});
-      mesh.triangles.push_back({a + 4, a + 3, a + 1});
-    }
-    mesh.edge_groups["left"].push_back({3 * row, 3 * row + 3});
-    mesh.edge_groups["right"].push_back({3 * row + 2, 3 * row + 5});
-  }
-  prepare(mesh);
-  scene.mesh = mesh;
-  scene.fixes[0].nodes = nodes_of(mesh.edge_groups.at("left"));
-  scene.tractions[0].edges = mesh.edge_groups.at("right");
   return scene;
 }
 
@@ -127,7 +103,7 @@ TEST(Implicit, ResolvesSlivers) {
   // itself has ten digits there.
   const std::vector<double> times{0.25, 0.5};
   for (Mass mass : {Mass::lumped, Mass::consistent}) {
-    Scene scene = with_slivers(mass, 0.01);
+    Scene scene = with_slivers(off_grid_beam(mass), 0.01);
     scene.time.duration = 0.5;
     EXPECT_LE(run_error(ExactSolution(scene).at(times), simulate(implicit(scene, 1e-4), times)), 5e-10);
   }
@@ -138,7 +114,7 @@ TEST(Implicit, PassesOverSliversThatItDoesNotResolve) {
   // the sudden pull excites to a thousandth of the whole.
   const std::vector<double> times{0.25, 0.5, 0.75, 1.0};
   for (double degrees : {0.1, 0.01}) {
-    const Scene scene = with_slivers(Mass::lumped, degrees);
+    const Scene scene = with_slivers(off_grid_beam(Mass::lumped), degrees);
     const auto exact = ExactSolution(scene).at(times);
     Simulation simulation(implicit(scene, 0.1));
     EXPECT_GT(0.1, 20 * stable_step(simulation.spectrum(), IntegratorKind::rk4));

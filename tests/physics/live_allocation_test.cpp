@@ -7,7 +7,7 @@
 #include <cstdlib>
 
 #include "rheo/live.hpp"
-#include "support/live_scenes.hpp"
+#include "support/live_cases.hpp"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
 #define RHEO_CANNOT_COUNT 1
@@ -64,48 +64,20 @@ int posix_memalign(void** memory, std::size_t alignment, std::size_t size) noexc
 namespace rheo::test {
 namespace {
 
-struct Case {
-  const char* name;
-  Mass mass;
-  Kernel kernel;
-  int threads;
-  bool general_constraint;
-};
-
-class LiveAllocation : public ::testing::TestWithParam<Case> {};
+class LiveAllocation : public ::testing::TestWithParam<LiveCase> {};
 
 TEST_P(LiveAllocation, NoneInAThousandTicks) {
 #ifdef RHEO_CANNOT_COUNT
   GTEST_SKIP() << "the sanitizer has an allocator of its own";
 #else
-  const Case& c = GetParam();
-  // Large enough for two threads to have work.
-  Scene scene = c.threads > 1 ? live_block(c.mass, 61, 41) : live_block(c.mass);
-  scene.time.step = 0.0;
-  if (c.general_constraint) {
-    scene.constraints.push_back({{{30, Axis::x, 1.0}, {31, Axis::x, -1.0}}, 0.0, "tie"});
-  }
-  LiveSettings settings = live_settings(scene);
-  settings.rate = 1000.0;
-  settings.simulation.kernel = c.kernel;
-  settings.simulation.threads = c.threads;
-  settings.record = 100'000;
-  Live live(scene, settings);
-  ASSERT_EQ(live.simulation().threads(), c.threads);
-  ASSERT_FALSE(live.tick());  // OpenMP starts its threads
-  double checked = 0.0;
+  Live live = live_of(GetParam());
+  ASSERT_EQ(live.simulation().threads(), GetParam().threads);
+  ASSERT_FALSE(live.tick());
   count = 0;
   counting = true;
-  bool fine = true;
-  for (int k = 0; k < 1000; ++k) {
-    // With factors to make, a hold of what was picked would make one.
-    if (k % 120 != 25 || (c.mass == Mass::lumped && !c.general_constraint)) act(live, k % 120);
-    fine = fine && !live.tick();
-    checked += live.read(grab_handle).force.x + live.simulation().u()[0] + live.simulation().energies().work;
-  }
+  const bool fine = work(live, GetParam(), 1000);
   counting = false;
   EXPECT_TRUE(fine);
-  EXPECT_TRUE(std::isfinite(checked));
   EXPECT_TRUE(live.session_is_complete());
   EXPECT_EQ(count.load(), 0);
 #endif
@@ -151,13 +123,7 @@ TEST(LiveAllocationCount, SeesAnAllocation) {
 #endif
 }
 
-INSTANTIATE_TEST_SUITE_P(Kernels, LiveAllocation,
-                         ::testing::Values(Case{"edge", Mass::lumped, Kernel::edge, 1, false},
-                                           Case{"edge_on_two_threads", Mass::lumped, Kernel::edge, 2, false},
-                                           Case{"element", Mass::lumped, Kernel::element, 1, false},
-                                           Case{"csr", Mass::lumped, Kernel::csr, 1, false},
-                                           Case{"csr_consistent", Mass::consistent, Kernel::csr, 1, false},
-                                           Case{"csr_constraint", Mass::lumped, Kernel::csr, 1, true}),
+INSTANTIATE_TEST_SUITE_P(Kernels, LiveAllocation, ::testing::ValuesIn(live_cases),
                          [](const auto& each) { return std::string(each.param.name); });
 
 }  // namespace

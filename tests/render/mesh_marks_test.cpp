@@ -195,45 +195,6 @@ TEST_F(MeshPictures, ArrowLengthIsProportionalToTheTraction) {
   EXPECT_NEAR(length(5), full / 2.0, 3);
 }
 
-// A tall block sheared by a traction along its top, which tilts: the arrows stand one above another. The
-// value's plate would hide part of an arrow: every arrow's row keeps as much ink as when it stands alone.
-TEST_F(MeshPictures, TheValueStandsClearOfTheArrowsOfATiltedEdge) {
-  for (const double tilt : {-0.5, -0.3, 0.0, 0.3, 0.5}) {
-    Body body = bodies::rectangle(1, 2, 5, 9);
-    for (std::size_t i = 0; i < body.nodes(); ++i) {
-      const double x = body.rest[2 * i], y = body.rest[2 * i + 1];
-      body.positions[2 * i] = x + 0.2 * y * y / 4;
-      body.positions[2 * i + 1] = y + tilt * (x - 0.5) * y / 2;
-    }
-    std::vector<render::TractionArrow> arrows;
-    for (std::size_t i = 36; i < 40; ++i)
-      arrows.push_back({{(body.positions[2 * i] + body.positions[2 * i + 2]) / 2,
-                         (body.positions[2 * i + 1] + body.positions[2 * i + 3]) / 2},
-                        {12300, 0}});
-    render::MeshLayout layout = body.layout();
-    layout.arrow_scale = 12300;
-    body.arrows = arrows;
-    const Image together = draw(layout, body.frame());
-    for (std::size_t k = 0; k < arrows.size(); ++k) {
-      body.arrows = {arrows[k]};
-      const Image alone = draw(layout, body.frame());
-      body.arrows.clear();
-      const Image without = draw(layout, body.frame());
-      int arrow = 0, lost = 0;
-      support::find(alone, [&](int x, int y, const Pixel& p) {
-        // The arrow's own colour, whole; no figure has twelve such pixels in a row.
-        for (int d = 0; d < 12; ++d)
-          if (x + d >= width || !is_red(at(alone, x + d, y))) return false;
-        arrow += is_red(p) && !is_red(at(without, x, y));
-        lost += is_red(p) && !is_red(at(together, x, y));
-        return false;
-      });
-      EXPECT_GT(arrow, 8) << tilt << " " << k;
-      EXPECT_EQ(lost, 0) << tilt << " " << k;
-    }
-  }
-}
-
 TEST_F(MeshPictures, TitleAndTimeAreInTheHeading) {
   const Body body = bodies::rectangle(2, 1, 2, 2);
   render::MeshLayout layout = body.layout();

@@ -219,8 +219,6 @@ TEST_F(MeshPictures, FramesDoNotLeakIntoEachOther) {
   EXPECT_EQ(first.rgba, again.rgba);
 }
 
-// Connected parts of ink larger than a letter.
-
 TEST_F(MeshPictures, EveryPictureSizeWorks) {
   const Body body = bodies::pulled_beam(5, 2, 3);
   for (const auto& [w, h] : {std::pair{1, 1}, {8, 8}, {60, 400}, {400, 60}, {33, 27}}) {

@@ -11,6 +11,7 @@
 namespace mesh_pictures {
 namespace {
 
+// Connected parts of ink larger than a letter.
 std::vector<Box> large_parts(const Image& image) {
   std::vector<char> seen(image.rgba.size() / 4, 0);
   std::vector<Box> parts;

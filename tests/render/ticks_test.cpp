@@ -102,4 +102,26 @@ TEST(Typeset, LeavesOtherTextAlone) {
   }
 }
 
+TEST(LogTicks, AreTwoAtLeastWhereTheRangeHasTwoPowers) {
+  for (int first = -5; first < 5; ++first) {
+    for (int decades = 1; decades < 8; ++decades) {
+      const auto ticks = log_ticks(std::pow(10, first - 0.3), std::pow(10, first + decades + 0.3), 2);
+      EXPECT_GE(ticks.at.size(), 2u) << first << " " << decades;
+    }
+  }
+}
+
+TEST(ShortTimes, HaveOneUnitAndNoMoreDecimalsThanTheyNeed) {
+  using testing::ElementsAre;
+  const auto of = [](std::vector<double> t) { return render::short_times(t); };
+  EXPECT_THAT(of({0, 1, 2}), ElementsAre("0 s", "1 s", "2 s"));
+  EXPECT_THAT(of({0, 0.25, 12}), ElementsAre("0.00 s", "0.25 s", "12.00 s"));
+  EXPECT_THAT(of({0, 1.0 / 3}), ElementsAre("0.000 s", "0.333 s"));
+  EXPECT_THAT(of({0, 0.002, 0.0045}), ElementsAre("0.0 ms", "2.0 ms", "4.5 ms"));
+  EXPECT_THAT(of({0, 3e-6}), ElementsAre("0 µs", "3 µs"));
+  EXPECT_THAT(of({0, 1234.567}), ElementsAre("0.0 s", "1234.6 s"));
+  EXPECT_THAT(of({0}), ElementsAre("0 s"));
+  EXPECT_THAT(of({}), ElementsAre());
+}
+
 }  // namespace

@@ -246,7 +246,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{51, "range = 3", "range = 3: \"auto\" or [low, high]"},
         BadValue{51, "range = [1]", "range = [1]"},
         BadValue{52, "size = 1280", "size = 1280: [width, height]"},
-        BadValue{52, "size = [1280.0, 720]", "size[0] = 1280.0: a whole number of pixels from 16 to 16384"}));
+        BadValue{52, "size = [1280.0, 720]",
+                 "size[0] = 1280.0: a whole number of pixels from 240 to 16384"}));
 
 INSTANTIATE_TEST_SUITE_P(
     OutOfRange, BadSceneValue,
@@ -313,9 +314,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{50, "color = \"red\"", "color = \"red\""},
         BadValue{51, "range = [2.0, 1.0]", "range = [2, 1]: \"auto\" or two finite numbers"},
         BadValue{51, "range = \"full\"", "range = \"full\""},
-        BadValue{52, "size = [15, 720]", "size[0] = 15"},
+        BadValue{52, "size = [239, 720]", "size[0] = 239: a whole number of pixels from 240 to 16384"},
+        BadValue{52, "size = [1280, 159]", "size[1] = 159: a whole number of pixels from 160 to 16384"},
         BadValue{52, "size = [100000, 100000]",
-                 "size[0] = 100000: a whole number of pixels from 16 to 16384"}));
+                 "size[0] = 100000: a whole number of pixels from 240 to 16384"}));
 
 INSTANTIATE_TEST_SUITE_P(
     NonFinite, BadSceneValue,

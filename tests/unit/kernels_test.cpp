@@ -7,6 +7,7 @@
 #include <random>
 
 #include "assembled_body.hpp"
+#include "body_choice.hpp"
 #include "kernels/edge_body.hpp"
 #include "schedule.hpp"
 #include "support/exact.hpp"
@@ -233,6 +234,20 @@ TEST(EdgeBody, ThreadsDoNotChangeTheResult) {
     EXPECT_EQ(one.energies().dissipated, several.energies().dissipated);
     EXPECT_EQ(one.energies().work, several.energies().work);
   }
+}
+
+TEST(BodyChoice, TakesTheFasterKernelForTheProcessor) {
+  Scene scene = paper_beam(Mass::lumped);
+  const auto chosen = [&](Kernel kernel, SimdLevel level) { return assembly_for(scene, kernel, level); };
+  EXPECT_EQ(chosen(Kernel::automatic, SimdLevel::avx2), Assembly::edges);
+  EXPECT_EQ(chosen(Kernel::automatic, SimdLevel::avx512), Assembly::edges);
+  EXPECT_EQ(chosen(Kernel::automatic, SimdLevel::baseline), Assembly::elements);
+  EXPECT_EQ(chosen(Kernel::edge, SimdLevel::baseline), Assembly::edges);
+  EXPECT_EQ(chosen(Kernel::csr, SimdLevel::baseline), Assembly::matrices);
+  scene.material.mu_ela = 0.0;  // one branch: two numbers a node
+  EXPECT_EQ(chosen(Kernel::automatic, SimdLevel::baseline), Assembly::edges);
+  scene.material.mass = Mass::consistent;
+  EXPECT_EQ(chosen(Kernel::automatic, SimdLevel::baseline), Assembly::matrices);
 }
 
 TEST(EdgeBody, SmallMeshesHaveOneThread) {

@@ -93,13 +93,13 @@ TEST(Scene, EveryRefusalNamesItsPlaceAndValue) {
       {"[time] baumgarte = 1e+31:", "1e-30 to 1e+30", [](Scene& s) { s.time.baumgarte = 1e31; }},
       {"traction:", "at most 1e+30", [](Scene& s) { s.tractions[0].keys[0].p.x = 1e200; }},
       {"[body_force] acceleration", "at most 1e+30", [](Scene& s) { s.body_acceleration.y = -1e40; }},
-      {"[render] size = [100000, 100000]:", "16 to 16384",
+      {"[render] size = [100000, 100000]:", "a width of 240 to 16384",
        [](Scene& s) {
          s.picture.size = {100000, 100000};
        }},
-      {"[render] size = [1280, 0]:", "16 to 16384",
+      {"[render] size = [1280, 159]:", "a height of 160 to 16384",
        [](Scene& s) {
-         s.picture.size = {1280, 0};
+         s.picture.size = {1280, 159};
        }},
       {"[render] range = [1, 1]:", "low < high",
        [](Scene& s) {

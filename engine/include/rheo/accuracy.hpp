@@ -17,9 +17,10 @@
 // until e_k is small enough or the order shows: e_{k-1} / e_k, or D_{k-1} / D_k, of 2^(0.85 p) at least. The
 // steps then follow from e ~ h^p, with a factor of 1.5 for safety: so many times (refinement) those of the
 // coarsest, in every interval between events and outputs alike, so that no interval's share in the error is
-// guessed. Trial runs cost 1 + 2 + 4 + ... of the coarsest run, and the exponential one: no cheaper run could
-// judge the coarsest. That is less than the run where the accuracy wants many times its steps, and up to four
-// times the run where the order shows only at the very steps that it needs.
+// guessed. Where less than the order shows, half of p at most is counted on, if the finer steps that this
+// wants cost less than another trial run might save. Trial runs cost 1 + 2 + 4 + ... of the coarsest run, and
+// the exponential one: no cheaper run could judge the coarsest. That is less than the run where the accuracy
+// wants many times its steps, and up to some 3.5 times the run where a few times the coarsest will do.
 //
 // Rounding is added to the estimate as it was measured, and refuses what it puts out of reach.
 //

@@ -14,12 +14,14 @@
 // (eigenvalues of a held body interlace with those of the free one).
 //
 // Units    SI
-// Memory   all of it is taken at construction. A tick and what is called between ticks allocate nothing, take
-//          no lock and make no system call, except: with several threads OpenMP's own barrier may sleep where
-//          a thread is late (OMP_WAIT_POLICY=active: it spins); with consistent mass or [[constraint]] the
-//          first grab of a set of nodes that no handle is declared with needs a factor; a scene with more
-//          than 16 different sets of constraints makes some again at its events; session() and the vectors of
-//          active tractions.
+// Memory   all of it is taken at construction. A tick and what is called between ticks allocate nothing and
+//          take no lock, except: with consistent mass or [[constraint]] the first grab of a set of nodes that
+//          no handle is declared with needs a factor; a scene with more than 16 different sets of constraints
+//          makes some again at its events; session() and the vectors of active tractions.
+// Calls    of the system: on one thread none. On several, those by which OpenMP's threads wait for each other
+//          and wake each other (futex, sched_yield), from the second tick on, and they wait long where
+//          another program has a thread's processor: milliseconds, and on a busy machine many of them a tick.
+//          Bounded only by one thread (SimulationOptions::threads = 1); OMP_WAIT_POLICY=passive helps.
 // Errors   the constructor: Error::Kind::input as Simulation's, handles with nodes that are not there,
 //          constraints = "baumgarte" (hands hold exactly). Later: false for what cannot be done (not finite,
 //          beyond the capacity, not grabbed), a Divergence from tick, never an exception.

@@ -62,10 +62,27 @@ struct Material {
     return k == 0 ? MaxwellBranch{lambda_ela, mu_ela, lambda_vis, mu_vis} : more_branches[k - 1];
   }
 
+  // Whether the first branch is all there is: the paper's material.
+  bool is_one_branch() const;
+  // Response to a sudden strain: springs of all branches and the elastic part [Pa].
+  Moduli instantaneous() const;
+
+  // Of the first branch.
   double lambda_rate() const { return branch(0).lambda_rate(); }
   double mu_rate() const { return branch(0).mu_rate(); }
 
   void validate(const std::string& where = {}) const;
 };
+
+// Whether two rates differ by rounding only.
+bool same_rate(double a, double b);
+
+// All springs that relax at one rate, for lambda and mu together; those that never relax have rate 0.
+struct Relaxation {
+  double rate = 0.0;  // [1/s]
+  Moduli moduli;      // [Pa]
+};
+// By rising rate, each once (rates that differ by rounding are one); the elastic part included.
+std::vector<Relaxation> relaxations_of(const Material& material);
 
 }  // namespace rheo

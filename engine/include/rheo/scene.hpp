@@ -146,9 +146,9 @@ struct Scene {
 };
 
 // Limits against slips of the pen that would fill a disk or never end.
-inline constexpr double max_outputs = 1e7;  // duration * frame_rate
-inline constexpr double max_steps = 1e12;   // duration / step
-inline constexpr int min_picture_side = 16;
+inline constexpr double max_outputs = 1e7;                       // duration * frame_rate
+inline constexpr double max_steps = 1e12;                        // duration / step
+inline constexpr std::array<int, 2> min_picture_size{240, 160};  // below it texts do not fit; width, height
 inline constexpr int max_picture_side = 16384;
 
 inline constexpr double finest_tolerance = 1e-13;  // below it rounding rules

@@ -268,12 +268,13 @@ class SceneReader {
     }
     if (const TomlValue* size = render.find("size")) {
       if (size->type != TomlValue::Type::array || size->items.size() != 2) {
-        render.refuse("size", *size,
-                      fmt::format("[width, height], each {} to {} pixels, is needed", min_picture_side,
-                                  max_picture_side));
+        render.refuse(
+            "size", *size,
+            fmt::format("[width, height], from {} x {} to {} x {} pixels, is needed", min_picture_size[0],
+                        min_picture_size[1], max_picture_side, max_picture_side));
       }
       for (std::size_t i = 0; i < 2; ++i) {
-        p.size[i] = render.integer(fmt::format("size[{}]", i), size->items[i], min_picture_side,
+        p.size[i] = render.integer(fmt::format("size[{}]", i), size->items[i], min_picture_size[i],
                                    max_picture_side, "whole number of pixels");
       }
     }

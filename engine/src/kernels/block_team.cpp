@@ -3,7 +3,9 @@
 #include <omp.h>
 
 #include <algorithm>
+#include <chrono>
 #include <thread>
+#include <utility>
 
 #include "kernels/flush_denormals.hpp"
 
@@ -11,6 +13,7 @@ namespace rheo {
 namespace {
 
 constexpr std::size_t fewest_blocks = 4;  // a thread: fewer are waited for longer than they take
+constexpr double repay = 20.0;            // of what follows, at most one part in so many is lost to waiting
 
 void wait_for(const std::atomic<std::size_t>& progress, std::size_t wanted) {
   constexpr int spins =
@@ -38,14 +41,51 @@ int paying_threads(int nodes, int asked) {
   return asked > 0 ? asked : std::clamp(nodes / nodes_a_thread, 1, usable_processors());
 }
 
-BlockTeam::BlockTeam(std::size_t blocks, int threads)
-    : blocks_(blocks),
-      threads_(std::clamp(threads, 1, static_cast<int>(std::max<std::size_t>(1, blocks / fewest_blocks)))),
+BlockTeam::BlockTeam(std::vector<std::int32_t> ends, int threads)
+    : ends_(std::move(ends)),
+      threads_(
+          std::clamp(threads, 1, static_cast<int>(std::max<std::size_t>(1, ends_.size() / fewest_blocks)))),
       progress_(std::make_unique<Progress[]>(static_cast<std::size_t>(threads_))) {}
+
+// The block that holds the member's share of the nodes, but so that each member has a block at least.
+std::size_t BlockTeam::stretch_begin(std::size_t member, std::size_t team) const {
+  if (member == team) return ends_.size();
+  std::size_t begin = 0;
+  for (std::size_t m = 1; m <= member; ++m) {
+    const auto share = static_cast<std::int64_t>(m) * ends_.back() / static_cast<std::int64_t>(team);
+    const auto at = std::upper_bound(ends_.begin(), ends_.end(), share) - ends_.begin();
+    begin = std::clamp(static_cast<std::size_t>(at), begin + 1, ends_.size() - (team - m));
+  }
+  return begin;
+}
+
+BlockTeam::Record& BlockTeam::record_of(Call call, std::size_t sweeps) {
+  for (Record& record : records_) {
+    if (record.call == nullptr) {
+      record.call = call;
+      record.sweeps = sweeps;
+    }
+    if (record.call == call && record.sweeps == sweeps) return record;
+  }
+  return records_.back();  // more kinds than there are
+}
 
 void BlockTeam::run(std::size_t sweeps, Call call, const void* context) {
   if (threads_ == 1) {
     run_stretch(0, 1, sweeps, call, context);
+    return;
+  }
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point begin = Clock::now();
+  const auto seconds = [&] { return std::chrono::duration<double>(Clock::now() - begin).count(); };
+  Record& record = record_of(call, sweeps);
+  if (record.trials > 0 || alone_for_ > 0.0) {
+    run_stretch(0, 1, sweeps, call, context);
+    const double taken = seconds();
+    if (record.trials > 0) --record.trials;
+    alone_for_ -= taken;
+    // Forgets slowly what was once faster.
+    record.alone = std::min(taken, 1.1 * record.alone);
     return;
   }
   for (int k = 0; k < threads_; ++k) {
@@ -58,12 +98,14 @@ void BlockTeam::run(std::size_t sweeps, Call call, const void* context) {
     run_stretch(static_cast<std::size_t>(omp_get_thread_num()),
                 static_cast<std::size_t>(omp_get_num_threads()), sweeps, call, context);
   }
+  const double lost = seconds() - record.alone;
+  if (lost > 0.0) alone_for_ = repay * lost;
 }
 
 void BlockTeam::run_stretch(std::size_t member, std::size_t team, std::size_t sweeps, Call call,
                             const void* context) {
-  const std::size_t begin = blocks_ * member / team;
-  const std::size_t end = blocks_ * (member + 1) / team;
+  const std::size_t begin = stretch_begin(member, team);
+  const std::size_t end = stretch_begin(member + 1, team);
   const std::size_t length = end - begin;
   // Of two neighbours the first, third, ... goes down from the edge that they share, the other up.
   const bool down = team > 1 && member % 2 == 0;

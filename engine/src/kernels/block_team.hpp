@@ -8,13 +8,22 @@
 // times a chain at most. What a visit computes does not depend on who makes it: results are the same for any
 // number of threads.
 //
+// Where other programs want the processors, a chain by several threads can take as long as the system lets
+// them have one, milliseconds. How long a chain takes one thread is therefore measured, and where several
+// took longer, one alone makes those that follow for twenty times what was lost: a busy machine costs little
+// more than one thread's time.
+//
 // Threads  OpenMP's pool, which stays between chains; a waiting thread spins, then yields
 // Errors   none; the runtime may give fewer threads than asked for
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
 #include <memory>
+#include <vector>
 
 namespace rheo {
 
@@ -26,8 +35,9 @@ int paying_threads(int nodes, int asked);
 
 class BlockTeam {
  public:
-  // `threads` are brought down to what the blocks keep busy; at least 1.
-  BlockTeam(std::size_t blocks, int threads);
+  // `ends`: one past each block's last node, rising (node_blocks.hpp). Threads' stretches have about as many
+  // nodes each. `threads` are brought down to what the blocks keep busy; at least 1.
+  BlockTeam(std::vector<std::int32_t> ends, int threads);
 
   int threads() const { return threads_; }
 
@@ -51,12 +61,26 @@ class BlockTeam {
     std::atomic<std::size_t> first{0}, last{0};
   };
 
+  // One kind of chain: what one thread takes for it [s], as far as is known.
+  struct Record {
+    Call call = nullptr;
+    std::size_t sweeps = 0;
+    int trials = 3;  // still to be made alone
+    double alone = std::numeric_limits<double>::infinity();
+  };
+
+  Record& record_of(Call call, std::size_t sweeps);
   void run(std::size_t sweeps, Call call, const void* context);
   void run_stretch(std::size_t member, std::size_t team, std::size_t sweeps, Call call, const void* context);
 
-  std::size_t blocks_;
+  // Where the stretch of a team's member begins.
+  std::size_t stretch_begin(std::size_t member, std::size_t team) const;
+
+  std::vector<std::int32_t> ends_;
   int threads_;
   std::unique_ptr<Progress[]> progress_;
+  std::array<Record, 8> records_;
+  double alone_for_ = 0.0;  // how long one thread is to make all chains [s]
 };
 
 }  // namespace rheo

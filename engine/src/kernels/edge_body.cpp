@@ -23,7 +23,7 @@ EdgeBody::EdgeBody(const Model& model, const EdgeForce& force, int threads)
     : Body(model, 0.0),
       edge_force_(force),
       form_(force.form()),
-      team_(form_.blocks.size(), paying_threads(form_.nodes, threads)),
+      team_(block_ends(form_.blocks), paying_threads(form_.nodes, threads)),
       sums_(form_.blocks.size()),
       mass_(entry_masses(model, form_)),
       terms_(mass_, form_.kernel_node, block_ends(form_.blocks)) {

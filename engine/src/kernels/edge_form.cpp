@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "kernels/node_blocks.hpp"
@@ -76,8 +75,8 @@ std::vector<DirectedEdge> directed_edges(const Mesh& mesh) {
 }  // namespace
 
 std::optional<Combined> combined(const Material& material) {
-  const double a = material.lambda_rate(), b = material.mu_rate();
-  const bool alike = std::abs(a - b) <= 2.0 * std::numeric_limits<double>::epsilon() * std::max(a, b);
+  if (!material.is_one_branch()) return std::nullopt;
+  const bool alike = same_rate(material.lambda_rate(), material.mu_rate());
   if (material.lambda_ela > 0.0 && material.mu_ela > 0.0 && !alike) return std::nullopt;
   return Combined{material.lambda_ela, material.mu_ela};
 }
@@ -106,20 +105,22 @@ EdgeForm::EdgeForm(const Mesh& mesh, const std::optional<Combined>& both, const 
   kernel_node.resize(n);
   for (std::size_t k = 0; k < n; ++k) kernel_node[mesh_node[k]] = static_cast<std::int32_t>(k);
 
+  std::vector<std::int32_t> farthest(n);  // the highest of a node's neighbours
   for (std::size_t k = 0; k < n; ++k) {
-    for (std::size_t e = begin[mesh_node[k]]; e < begin[mesh_node[k] + 1]; ++e) {
-      bandwidth = std::max(bandwidth, std::abs(kernel_node[edges[e].to] - static_cast<std::int32_t>(k)));
-    }
+    for (std::size_t e = begin[mesh_node[k]]; e < begin[mesh_node[k] + 1]; ++e)
+      farthest[k] = std::max(farthest[k], kernel_node[edges[e].to]);
+    bandwidth = std::max(bandwidth, farthest[k] - static_cast<std::int32_t>(k));
   }
   const Level kept = wanted.value_or(bandwidth < far_bandwidth ? Level::ready : Level::summed);
   level_row = moduli || kept == Level::summed ? 2 : 4;
-  const std::int32_t block_nodes = std::max(bandwidth, smallest_block);
-
   std::int64_t count = 0;
+  std::int32_t reached = 0;  // highest neighbour of the block's nodes so far: the next block's, at most
+  std::int32_t end = 0;      // where the block ends
   for (std::int32_t k = 0; k < nodes; ++k) {
     const std::int32_t node = mesh_node[k];
-    const bool new_block = blocks.empty() || k - blocks.back().first_node == block_nodes;
+    const bool new_block = k == end;
     if (new_block) {
+      end = std::max(k + smallest_block, reached + 1);
       const auto run = static_cast<std::int32_t>(runs.size());
       blocks.push_back({run, run, k, k});
     }
@@ -127,6 +128,7 @@ EdgeForm::EdgeForm(const Mesh& mesh, const std::optional<Combined>& both, const 
       count += count % 2;  // wide loads of a pair's edges stay in one cache line
       runs.push_back({k, k, valence(node), count});
     }
+    reached = std::max(reached, farthest[k]);
     ++runs.back().last;
     blocks.back().last_run = static_cast<std::int32_t>(runs.size());
     blocks.back().last_node = k + 1;

@@ -46,7 +46,8 @@ struct Combined {
   double lambda = 0.0, mu = 0.0;  // [Pa]
 };
 
-// Whether a material's branches can be combined: equal rates (but for rounding), or a zero modulus.
+// Whether a material's two moduli can be combined: one branch of equal rates (but for rounding), or of a zero
+// modulus.
 std::optional<Combined> combined(const Material& material);
 
 // What an edge keeps of its level for a row of 4: all four numbers, or xx and yy alone.
@@ -87,7 +88,7 @@ struct EdgeForm {
   };
   std::vector<Run> runs;
   AlignedArray<std::uint32_t> offset;  // by directed edge: `row` x the neighbour's number
-  AlignedVector level;                // by directed edge: xx, yy (2 xx + yy, 2 yy + xx), or kxx, kyy
+  AlignedVector level;                 // by directed edge: xx, yy (2 xx + yy, 2 yy + xx), or kxx, kyy
   AlignedVector mixed;  // by directed edge: xy or kxy; some zeros beyond the end, for wide loads
 
   // Boundary passages: previous and next node along the boundary (interior on the left) of a boundary node.
@@ -102,9 +103,9 @@ struct EdgeForm {
   // A node's neighbours have numbers within this distance.
   std::int32_t bandwidth = 0;
 
-  // Stretches of whole runs, none (but the last) shorter than the bandwidth: a node's neighbours lie in its
-  // own or a neighbouring block, so that sweeps can follow each other through the mesh at a distance of one
-  // block.
+  // Stretches of whole runs: a node's neighbours lie in its own or a neighbouring block, so that sweeps can
+  // follow each other through the mesh at a distance of one block. Each is as short as that allows, down to
+  // smallest_block: the shorter, the nearer the data stay.
   struct Block {
     std::int32_t first_run = 0, last_run = 0;
     std::int32_t first_node = 0, last_node = 0;

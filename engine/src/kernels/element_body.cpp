@@ -53,11 +53,11 @@ ElementBody::ElementBody(const Model& model, const ElementForce& force, int thre
       element_force_(force),
       form_(force.form()),
       blocks_(make_blocks(form_, threads)),
-      team_(blocks_.size(), paying_threads(form_.nodes, threads)),
+      team_(block_ends(blocks_), paying_threads(form_.nodes, threads)),
       mass_(twice(form_.node_mass)),
       terms_(mass_, form_.kernel_node, block_ends(blocks_)),
       stretches_(form_.blocks(smallest_block)),
-      stretch_team_(stretches_.size(), team_.threads()) {
+      stretch_team_(block_ends(stretches_), team_.threads()) {
   const auto n = static_cast<std::size_t>(form_.nodes);
   const auto s = static_cast<std::size_t>(form_.slots);
   state_.assign(4 * s + 4 * n, 0.0);

@@ -12,8 +12,10 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "render/image.hpp"
+#include "render/text_box.hpp"
 
 namespace render {
 
@@ -53,6 +55,9 @@ struct PictureCounters {
   std::int64_t mesh_uploads = 0;     // of positions and colours; none where neither changed
 };
 
+// How many shapes, each with its time, have good room on a sheet of this size.
+int sheet_room(int width, int height);
+
 class MeshPicture {
  public:
   // Draws with `context`, which must outlive this; pictures have the context's size.
@@ -66,7 +71,11 @@ class MeshPicture {
   void draw(const MeshFrame& frame, Image& out);
 
   // Successive shapes in a grid, each with its time, all at one scale, one colour bar (the paper's Figure 3).
+  // Where there are more shapes than sheet_room(), times that would touch each other are left out.
   Image sheet(std::span<const MeshFrame> frames);
+
+  // What is written in the last picture.
+  const std::vector<TextBox>& texts() const;
 
   PictureCounters counters() const;
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/image.hpp"
+#include "render/text_box.hpp"
 
 namespace render {
 
@@ -33,7 +34,7 @@ struct Plot {
   std::vector<double> marks;  // vertical faint lines (events)
 };
 
-// The picture has the context's size.
-Image draw_plot(Context& context, const Plot& plot);
+// The picture has the context's size. `texts`: receives what is written in it, unless null.
+Image draw_plot(Context& context, const Plot& plot, std::vector<TextBox>* texts = nullptr);
 
 }  // namespace render

@@ -1,0 +1,51 @@
+// Sweeps over blocks by several threads: each block once a sweep, after all that it reads.
+
+#include "kernels/block_team.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <vector>
+
+namespace rheo::test {
+namespace {
+
+// Block ends: of one size; growing; one that holds most nodes; as few blocks as a team of four keeps.
+const std::vector<std::vector<std::int32_t>> meshes = [] {
+  std::vector<std::vector<std::int32_t>> result(4);
+  for (int k = 0; k < 40; ++k) result[0].push_back(10 * (k + 1));
+  for (int k = 0; k < 40; ++k) result[1].push_back((k + 1) * (k + 1));
+  for (int k = 0; k < 40; ++k) result[2].push_back(k < 30 ? k + 1 : 10000 + k);
+  for (int k = 0; k < 16; ++k) result[3].push_back(k < 1 ? 100000 : 100000 + k);
+  return result;
+}();
+
+TEST(BlockTeam, VisitsEveryBlockOnceASweepAfterAllThatItReads) {
+  constexpr std::size_t sweeps = 4;
+  for (const std::vector<std::int32_t>& ends : meshes) {
+    const std::size_t blocks = ends.size();
+    for (int threads : {1, 2, 3, 4}) {
+      BlockTeam team(ends, threads);
+      ASSERT_EQ(team.threads(), threads);
+      for (int repeat = 0; repeat < 20; ++repeat) {
+        std::vector<std::atomic<int>> visits(sweeps * blocks);
+        std::atomic<int> too_early = 0;
+        team.chain(sweeps, [&](std::size_t sweep, std::size_t block) {
+          for (std::size_t b = block > 0 ? block - 1 : 0; sweep > 0 && b < std::min(block + 2, blocks); ++b)
+            too_early += visits[(sweep - 1) * blocks + b] != 1;
+          ++visits[sweep * blocks + block];
+        });
+        EXPECT_EQ(too_early, 0);
+        for (const auto& count : visits) ASSERT_EQ(count, 1);
+      }
+    }
+  }
+}
+
+TEST(BlockTeam, HasNoMoreThreadsThanBlocksKeepBusy) {
+  EXPECT_EQ(BlockTeam(std::vector<std::int32_t>{7}, 8).threads(), 1);
+  EXPECT_EQ(BlockTeam(meshes[3], 8).threads(), 4);
+}
+
+}  // namespace
+}  // namespace rheo::test
