@@ -45,7 +45,8 @@ void check(const Data& data) {
   const bool sweep = data.kind == PronyProblem::Kind::sweep;
   const char* what = sweep ? "frequency" : "time";
   if (data.samples.size() < least_points)
-    refuse(fmt::format("{} points: at least {} are needed for a fit", data.samples.size(), least_points));
+    refuse(fmt::format("{} point{}: at least {} are needed for a fit", data.samples.size(),
+                       data.samples.size() == 1 ? "" : "s", least_points));
   double largest = 0.0;
   for (const Sample& s : data.samples) {
     const double shown = sweep ? s.x / (2.0 * std::numbers::pi) : s.x;
@@ -60,8 +61,7 @@ void check(const Data& data) {
       largest = std::max(largest, s.value[k]);
     }
   }
-  if (largest < smallest_size)
-    refuse(fmt::format("no modulus above 0: moduli are positive, under compression too"));
+  if (largest < smallest_size) refuse("no modulus above 0: moduli are positive, under compression too");
   for (const Sample& s : data.samples) {
     for (std::size_t k = 0; k < data.values(); ++k) {
       if (s.value[k] < -most_negative * largest)

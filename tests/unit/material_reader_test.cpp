@@ -211,6 +211,10 @@ TEST(MaterialReader, NamesEveryOtherMistake) {
   expect(simple + "maxwell = [1]", 11, "write [[material.maxwell]]");
   expect(simple + "[material.elastic]\nlambda = 1", 11,
          "[material.elastic] mu is missing: the elastic modulus by mu");
+  expect(simple + "[material.elastic]\nlambda = 1\nmu = 1\npoisson = 0.3", 14,
+         "[material.elastic] poisson = 0.3: goes with a young key only");
+  expect(simple + "[[material.maxwell]]\nlambda_ela = 1\nmu_ela = 1\ntime = 1\npoisson = 0.3", 15,
+         "[[material.maxwell]] poisson = 0.3: goes with a young key only");
   expect(simple + "[material.elastic]\nlambda = 1\nmu = -1", 13, "[material.elastic] mu = -1: ");
   expect(simple + "[material.elastic]\nlambda = 1\nmu = inf", 13, "[material.elastic] mu = inf: a finite");
   expect(simple + "[material.elastic]\nlambda_ela = 1", 12, "[material.elastic] lambda_ela = 1: unknown key");
@@ -305,7 +309,7 @@ TEST_F(MeasuredMaterialReader, NamesMistakes) {
   EXPECT_THAT(message("1,2\n", "frequency"), HasSubstr("3 numbers are needed (frequency, storage, loss"));
   EXPECT_THAT(message("1,2\n\n-1,2\n3,1\n"), HasSubstr("bad.csv:3: time -1: a number >= 0 (s)"));
   EXPECT_THAT(message("1,2,1\n0,2,1\n", "frequency"), HasSubstr("bad.csv:2: frequency 0: a number > 0 (Hz)"));
-  EXPECT_THAT(message("1,2\n"), HasSubstr("bad.csv: 1 points: at least 3 are needed"));
+  EXPECT_THAT(message("1,2\n"), HasSubstr("bad.csv: 1 point: at least 3 are needed"));
   EXPECT_THAT(message("1,-2\n2,-1\n3,-1\n"), HasSubstr("no modulus above 0"));
   const std::string data = "relaxation = \"relaxation.csv\"\n";
   EXPECT_THAT(refusal(data, folder_), HasSubstr("poisson, Poisson's ratio, is needed beside it"));

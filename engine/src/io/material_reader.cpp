@@ -123,6 +123,7 @@ class MaterialReader {
     for (const TomlValue& value : tables_of(top_.find("maxwell"), file_, "material.maxwell")) {
       const TableReader reader(value, file_, "[[material.maxwell]]", value.line,
                                branch_keys + Words{"time", "poisson"});
+      refuse_idle_poisson(reader);
       branches.push_back(branch(reader));
     }
     if (!branches.empty()) {
@@ -135,6 +136,14 @@ class MaterialReader {
     }
     m.elastic = part("elastic", modulus, "modulus");
     m.viscous = part("viscous", parallel_viscosity, "viscosity");
+  }
+
+  // A table's own ratio, where it gives no Young's modulus.
+  static void refuse_idle_poisson(const TableReader& reader) {
+    for (const char* young : {"young", "young_ela", "young_vis"})
+      if (reader.has(young)) return;
+    if (const TomlValue* value = reader.find("poisson"))
+      reader.refuse("poisson", *value, "goes with a young key only; leave it out here");
   }
 
   MaxwellBranch branch(const TableReader& reader) {
@@ -178,6 +187,7 @@ class MaterialReader {
       top_.refuse(name, *value, fmt::format("one table, [material.{}], is needed", name));
     const TableReader reader(*value, file_, fmt::format("[material.{}]", name), value->line,
                              {"lambda", "mu", "young", "poisson"});
+    refuse_idle_poisson(reader);
     return moduli(reader, plain, rule, fmt::format("the {} {} by {{}}", name, what));
   }
 
