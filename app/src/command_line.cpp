@@ -379,9 +379,8 @@ std::optional<Options> read_command_line(int argc, char** argv) {
   CLI::App* run = add_command(program, texts, "run", "simulate; writes state.csv, history.csv and run.json");
   CLI::App* render = add_command(program, texts, "render",
                                  "simulate and draw: run's files, frames, sheet.png and residual.png");
-  CLI::App* check = add_command(
-      program, texts, "check",
-      "read the scene; print sizes, stable steps and a cost forecast; --plot\ndraws its material; no run");
+  CLI::App* check = add_command(program, texts, "check",
+                                "read the scene; print sizes, stable steps and a cost forecast; no run");
   add_plot_options(*check, texts);
   add_output_options(*run, texts);
   add_output_options(*render, texts);

@@ -61,7 +61,7 @@ class Curves {
   std::vector<Curve> curves_;
 };
 
-std::string titled(const rheo::Scene& scene, const char* what, const char* alone) {
+std::string titled(const rheo::Scene& scene, const std::string& what, const std::string& alone) {
   return scene.title.empty() ? alone : fmt::format("{}: {}", scene.title, what);
 }
 
@@ -69,9 +69,11 @@ void draw_fit(const rheo::Scene& scene, render::Context& context, OutputFolder& 
   const rheo::MeasuredMaterial& measured = *scene.origin.measured;
   const FitCurves fit = fit_curves_of(measured);
   const bool young = measured.modulus == rheo::MeasuredModulus::young;
-  Curves picture(fmt::format("{}, error {:.2g} % root mean square", titled(scene, "fit", "Fit"),
+  const char* modulus = young ? "Young's modulus" : "the shear modulus";
+  const std::string what = fmt::format("fit of {}", modulus), alone = fmt::format("Fit of {}", modulus);
+  Curves picture(fmt::format("{}, error {:.2g} % root mean square", titled(scene, what, alone),
                              100.0 * measured.fit.rms));
-  picture.plot.y_label = young ? "Young's modulus [Pa]" : "shear modulus [Pa]";
+  picture.plot.y_label = young ? "E [Pa]" : "mu [Pa]";
   picture.plot.x_label = fit.sweep ? "frequency [Hz]" : "t [s]";
   if (fit.sweep) {
     picture.add("storage, fit", fit.x, fit.fit);
@@ -92,10 +94,11 @@ std::vector<std::string> draw_material(const rheo::Scene& scene, const MaterialC
   std::vector<std::string> notes;
   const auto context =
       render::open_context(backend_of(options.backend), scene.picture.size[0], scene.picture.size[1]);
-  Curves relaxation(titled(scene, "relaxation", "Relaxation"));
-  relaxation.plot.x_label = "t [s]";
   const bool viscous = scene.material.viscous.lambda > 0.0 || scene.material.viscous.mu > 0.0;
-  relaxation.plot.y_label = viscous ? "r, but for the viscous part [Pa]" : "r [Pa]";
+  Curves relaxation(titled(scene, "relaxation", "Relaxation") +
+                    (viscous ? ", without the viscous part's pulse at t = 0" : ""));
+  relaxation.plot.x_label = "t [s]";
+  relaxation.plot.y_label = "r [Pa]";
   relaxation.add("r_lambda", c.t, c.r_lambda);
   relaxation.add("r_mu", c.t, c.r_mu);
   if (relaxation.empty())
