@@ -196,6 +196,43 @@ TEST(PronyFit, DoesNotMindOrderRepetitionAndUnits) {
   expect_series(fit_relaxation(points).series, scaled, 1e-8);
 }
 
+// Of whatever sizes, in whatever order, rising as well as falling.
+TEST(PronyFit, AnyDataGiveAUsableSeriesOrAnError) {
+  std::mt19937 random(99);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int fits = 0;
+  for (int repeat = 0; repeat < 300; ++repeat) {
+    const double x_middle = std::pow(10.0, 40.0 * unit(random) - 20.0), x_decades = 12.0 * unit(random);
+    const double size = std::pow(10.0, 40.0 * unit(random) - 20.0), decades = 6.0 * unit(random);
+    const auto x = [&] { return x_middle * std::pow(10.0, x_decades * (unit(random) - 0.5)); };
+    const auto modulus = [&] { return size * (std::pow(10.0, decades * (unit(random) - 1.0)) - 0.02); };
+    const int count = 3 + static_cast<int>(40 * unit(random));
+    PronyOptions options{.terms = static_cast<int>(4 * unit(random)),
+                         .weights = unit(random) < 0.5 ? FitWeights::relative : FitWeights::absolute};
+    try {
+      PronyFit fit;
+      if (unit(random) < 0.5) {
+        std::vector<RelaxationPoint> points;
+        for (int i = 0; i < count; ++i) points.push_back({unit(random) < 0.1 ? 0.0 : x(), modulus()});
+        fit = fit_relaxation(points, options);
+      } else {
+        std::vector<SweepPoint> points;
+        for (int i = 0; i < count; ++i) points.push_back({x(), modulus(), modulus()});
+        fit = fit_sweep(points, options);
+      }
+      ++fits;
+      expect_non_negative(fit.series);
+      EXPECT_TRUE(std::isfinite(fit.rms) && std::isfinite(fit.largest)) << repeat;
+      for (const PronyTerm& term : fit.series.terms)
+        EXPECT_TRUE(std::isfinite(term.modulus) && std::isfinite(term.time)) << repeat;
+      EXPECT_TRUE(std::isfinite(fit.series.elastic) && std::isfinite(fit.series.viscous)) << repeat;
+    } catch (const Error& error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+  }
+  EXPECT_GT(fits, 200);  // the others are too negative
+}
+
 TEST(PronyFit, RefusesWhatIsNoRelaxation) {
   const auto refusal = [](const std::vector<RelaxationPoint>& points) {
     return error_of([&] { fit_relaxation(points); });

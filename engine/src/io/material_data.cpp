@@ -30,17 +30,21 @@ Moduli moduli_for(const MeasuredMaterial& measured, double modulus) {
   return moduli_of({young, measured.poisson}, measured.plane);
 }
 
-// A branch too weak for a number of a scene is off.
+// What is too weak for a number of a scene is nothing; what is too large is left to Material::validate.
 MaxwellBranch branch_of(const Moduli& ela, double time) {
   MaxwellBranch b;
   const auto set = [&](double modulus, double& to_ela, double& to_vis) {
-    if (!of_usable_size(modulus) || !of_usable_size(modulus * time)) return;
+    if (modulus < smallest_size) return;
     to_ela = modulus;
     to_vis = modulus * time;
   };
   set(ela.lambda, b.lambda_ela, b.lambda_vis);
   set(ela.mu, b.mu_ela, b.mu_vis);
   return b;
+}
+
+Moduli part_of(const Moduli& part) {
+  return {part.lambda < smallest_size ? 0.0 : part.lambda, part.mu < smallest_size ? 0.0 : part.mu};
 }
 
 }  // namespace
@@ -78,8 +82,8 @@ void set_series(const MeasuredMaterial& measured, Material& material) {
     material.lambda_vis = b.lambda_vis;
     material.mu_vis = b.mu_vis;
   }
-  material.elastic = moduli_for(measured, series.elastic);
-  material.viscous = moduli_for(measured, series.viscous);
+  material.elastic = part_of(moduli_for(measured, series.elastic));
+  material.viscous = part_of(moduli_for(measured, series.viscous));
 }
 
 std::string doubt_about(const MeasuredMaterial& measured) {
