@@ -5,9 +5,13 @@
 
 #include <random>
 
+#include "assembled_body.hpp"
 #include "kernels/branch_rows.hpp"
+#include "kernels/parallel_edge_body.hpp"
+#include "kernels/parallel_element_body.hpp"
 #include "rheo/error.hpp"
 #include "rheo/simulation.hpp"
+#include "schedule.hpp"
 #include "support/kernel_cases.hpp"
 #include "support/whole_materials.hpp"
 
@@ -51,6 +55,32 @@ Scene parallel_scene(unsigned seed) {
   scene.moves[0].keys = {{0, {0, 0}, {}}, {0.8, {0.1 * size, 0}, {}}};
   scene.moves[0].window.until = 0.9;
   return scene;
+}
+
+// Sweeps, energies with their slopes and reactions of random states, whatever the instructions.
+TEST(ParallelBodies, AgreeWithTheAssembledForm) {
+  for (const SimdLevel level : {SimdLevel::baseline, SimdLevel::avx2, SimdLevel::avx512}) {
+    if (!has_simd_level(level)) continue;
+    for (unsigned seed = 0; seed < 12; ++seed) {
+      const Scene scene = parallel_scene(seed);
+      const Model model(scene.mesh, scene.material);
+      Schedule schedule(scene, model);
+      const Interval interval = schedule.interval(0);
+      const std::vector<double> y = random_state(model, seed + 1000);
+      const Vector base = Vector::Zero(static_cast<Eigen::Index>(model.layout.part));
+      AssembledBody assembled(model, 0.0);
+      const EdgeForce by_edges(std::make_shared<EdgeForm>(scene.mesh), level);
+      const ElementForce by_elements(std::make_shared<ElementForm>(scene.mesh, Regions{{scene.material}, {}}),
+                                     level);
+      ParallelEdgeBody edges(model, by_edges, 1);
+      ParallelElementBody elements(model, by_elements, 1);
+      const Outcome a = outcome(assembled, interval, base, y, 0.7);
+      const std::string which = std::string(name_of(level)) + " seed " + std::to_string(seed);
+      expect_alike(a, outcome(edges, interval, base, y, 0.7), scene, model.layout.part, "edges " + which);
+      expect_alike(a, outcome(elements, interval, base, y, 0.7), scene, model.layout.part,
+                   "elements " + which);
+    }
+  }
 }
 
 class ParallelKernels : public testing::TestWithParam<Kernel> {};
