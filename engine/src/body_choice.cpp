@@ -5,6 +5,8 @@
 #include "assembled_body.hpp"
 #include "kernels/edge_body.hpp"
 #include "kernels/element_body.hpp"
+#include "kernels/parallel_edge_body.hpp"
+#include "kernels/parallel_element_body.hpp"
 #include "rheo/error.hpp"
 #include "schedule.hpp"
 #include "shifted_body.hpp"
@@ -21,12 +23,7 @@ Assembly assembly_for(const Scene& scene, Kernel kernel, SimdLevel level) {
         fmt::format("kernel {} has no matrices, which integrator = \"implicit\" factors: use auto or csr",
                     name));
   }
-  if (asked && !scene.material.is_one_branch()) {
-    throw Error(Error::Kind::input,
-                fmt::format("kernel {} knows one Maxwell branch alone: use auto or csr", name));
-  }
-  const bool by_nodes = scene.material.mass == Mass::lumped && !has_columns(scene) && !implicit &&
-                        scene.material.is_one_branch();
+  const bool by_nodes = scene.material.mass == Mass::lumped && !has_columns(scene) && !implicit;
   if (asked && !by_nodes) {
     throw Error(Error::Kind::input,
                 fmt::format("kernel {} needs mass = \"lumped\" and constraints = \"auto\" without "
@@ -40,6 +37,10 @@ Assembly assembly_for(const Scene& scene, Kernel kernel, SimdLevel level) {
 }
 
 std::unique_ptr<Body> make_body(const Scene& scene, const Model& model, int threads) {
+  const bool parallel = !scene.material.is_one_branch();
+  if (model.edges && parallel) return std::make_unique<ParallelEdgeBody>(model, *model.edges, threads);
+  if (model.elements && parallel)
+    return std::make_unique<ParallelElementBody>(model, *model.elements, threads);
   if (model.edges) return std::make_unique<EdgeBody>(model, *model.edges, threads);
   if (model.elements) return std::make_unique<ElementBody>(model, *model.elements, threads);
   if (scene.time.integrator == IntegratorKind::implicit) {

@@ -112,7 +112,8 @@ class ParallelModes {
         integrator_(integrator),
         parts_(static_cast<Eigen::Index>(spectrum.relaxations.size())),
         mode_(1 + parts_, 1 + parts_),
-        solver_(1 + parts_) {
+        solver_(1 + parts_),
+        spacing_(parts_ > few_rates ? 1.0 / 3 : 1.0 / 8) {
     for (const Relaxation& each : spectrum.relaxations) {
       springs_.lambda += each.moduli.lambda;
       springs_.mu += each.moduli.mu;
@@ -130,13 +131,13 @@ class ParallelModes {
     // Euler's limit 2 |Re s| / |s|^2 only grows downwards.
     for (std::size_t i = 0; i < ratios.size(); ++i) {
       for (int k = 0; k < most_magnitudes; ++k) {
-        const Mode mode = mode_at(ratios[i], k / 8.0);
+        const Mode mode = mode_at(ratios[i], k * spacing_);
         if (!(mode.b > 0.0)) break;
         if (k > 0 && std::max(mode.omega, mode.damping) < 0.02 * fastest) break;
         if (can_not_limit(mode)) break;
         if (!include(mode)) continue;
         best_ratio_ = ratios[i];
-        best_decline_ = k / 8.0;
+        best_decline_ = k * spacing_;
         span_ = ratios[std::min(i + 1, ratios.size() - 1)] - ratios[i > 0 ? i - 1 : 0];
       }
     }
@@ -146,6 +147,8 @@ class ParallelModes {
 
  private:
   static constexpr int most_magnitudes = 128;
+  static constexpr Eigen::Index few_rates =
+      6;  // a mode's roots cost the cube of the rates: fewer samples beyond
   struct Mode {
     double ratio = 0.0;  // a / b
     double b = 0.0;
@@ -154,7 +157,7 @@ class ParallelModes {
 
   // Even shares of lambda in the springs' quotient, and in the viscous part's.
   std::vector<double> sample_ratios() const {
-    constexpr int shares = 16;
+    const int shares = parts_ > few_rates ? 6 : 16;
     std::vector<double> ratios{0.0, 1.0};
     for (const Moduli& moduli : {springs_, spectrum_.viscous}) {
       if (moduli.lambda == 0.0 || moduli.mu == 0.0) continue;
@@ -227,7 +230,7 @@ class ParallelModes {
   // Between the samples: downhill from the best of them, in steps that halve.
   void refine() {
     if (best_ratio_ < 0.0) return;
-    double decline_step = 1.0 / 16, ratio_step = 0.25 * span_;
+    double decline_step = 0.5 * spacing_, ratio_step = 0.25 * span_;
     for (int halvings = 0; halvings < 10;) {
       bool better = false;
       for (const auto& [dr, dd] :
@@ -253,6 +256,7 @@ class ParallelModes {
   Eigen::MatrixXd mode_;
   Eigen::EigenSolver<Eigen::MatrixXd> solver_;
   Moduli springs_;
+  double spacing_;  // of magnitudes, in octaves
   double fastest_rate_ = 0.0;
   double step_ = infinite;
   double best_ratio_ = -1.0, best_decline_ = 0.0, span_ = 0.0;  // of the sample that limits; -1: none

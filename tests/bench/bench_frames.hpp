@@ -11,19 +11,24 @@
 
 namespace bench {
 
+enum class Colour { shown, none };
+
 class Frames {
  public:
   // About `triangles` of them, with colour, lines, hatches, arrows, bar and text.
-  Frames(int triangles, int width, int height)
+  Frames(int triangles, int width, int height, Colour colour = Colour::shown)
       : context_(render::open_context(render::Backend::automatic, width, height)) {
     const int ny = std::max(2, static_cast<int>(std::sqrt(triangles / 8.0)) + 1), nx = 4 * (ny - 1) + 1;
     rest_ = bodies::pulled_beam(nx, ny, 1.0);
     full_ = bodies::pulled_beam(nx, ny, 2.2);
+    if (colour == Colour::none) full_.scalar.clear();
     body_ = full_;
     render::MeshLayout layout = full_.layout();
     layout.title = "Rheological beam";
-    layout.scalar_name = "|w_lambda|";
-    layout.scalar_unit = "Pa m";
+    if (colour == Colour::shown) {
+      layout.scalar_name = "|w_lambda|";
+      layout.scalar_unit = "Pa m";
+    }
     layout.range = {0, 0.8};
     layout.arrow_scale = 10;
     picture_ = std::make_unique<render::MeshPicture>(*context_, layout);

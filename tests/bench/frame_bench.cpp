@@ -13,6 +13,14 @@ void DrawAndReadBack(benchmark::State& state) {
   for (auto _ : state) frames.draw(image);
   state.SetItemsProcessed(state.iterations());
 }
+// The same without colour: none is read, uploaded or looked up.
+void DrawAndReadBackBare(benchmark::State& state) {
+  const auto height = static_cast<int>(state.range(1));
+  bench::Frames frames(static_cast<int>(state.range(0)), height * 16 / 9, height, bench::Colour::none);
+  render::Image image;
+  for (auto _ : state) frames.draw(image);
+  state.SetItemsProcessed(state.iterations());
+}
 // The same of a body that stands still: all but the time is taken from the frame before.
 void DrawAndReadBackStill(benchmark::State& state) {
   const auto height = static_cast<int>(state.range(1));
@@ -33,6 +41,14 @@ BENCHMARK(DrawAndReadBack)
     ->Args({1000, 240})
     ->Args({1000, 1080})
     ->Args({1000, 2160})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK(DrawAndReadBackBare)
+    ->ArgNames({"triangles", "height"})
+    ->Args({12, 720})
+    ->Args({1000, 720})
+    ->Args({10000, 720})
+    ->Args({100000, 720})
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 BENCHMARK(DrawAndReadBackStill)

@@ -2,11 +2,14 @@
 //
 //   skip/constraints/...   fixed nodes eliminated; the same by Baumgarte's equation for each (KKT)
 //   skip/branches/...      one rate: the branches combined; the same material with both advanced
-//   skip/relaxation/...    nothing relaxes: residual forces taken from u; combined but advanced; both
-//   advanced skip/displacement/...  u advanced once a step; in every sweep skip/energies/...      energies at
-//   no step; at every step skip/rest/...          a simulated second of a body at rest; of one that still
-//   moves skip/denormals/...     a step from 1 and after 1e6 s of relaxation; there without flushing denormal
-//   numbers
+//   skip/zero_modulus/...  mu_ela = 0: no branch; one so small that it changes nothing: advanced
+//   skip/relaxation/...    nothing relaxes: residual forces taken from u; combined, advanced; both
+//   skip/displacement/...  u advanced once a step; in every sweep
+//   skip/energies/...      energies at no step; at every step
+//   skip/rest/...          a simulated second of a body at rest; of one that still moves
+//   skip/denormals/...     a step from 1; after 1e6 s of relaxation; there without flushing denormals
+//
+// Colour and upload, with against without: rheo_bench_render, DrawAndReadBack...
 //
 // Counters: ns a triangle and step (rest: microseconds a simulated second).
 
@@ -88,6 +91,13 @@ rheo::Material elastic() {
 // All but elastic: rates that change nothing in a benchmark's time.
 rheo::Material nearly_elastic() {
   return {7, 5, 7e9, 5e9, 0.2, rheo::Mass::lumped};
+}
+
+rheo::Material without_mu() {
+  return {7, 0, 4, 2, 0.2, rheo::Mass::lumped};
+}
+rheo::Material nearly_without_mu() {
+  return {7, 1e-12, 4, 2, 0.2, rheo::Mass::lumped};
 }
 
 enum class Branches { apart, together };
@@ -177,6 +187,12 @@ BENCHMARK_CAPTURE(branches, one, one_rate(), Branches::together)
     ->Name("skip/branches/combined")
     ->UseRealTime();
 BENCHMARK_CAPTURE(branches, two, one_rate(), Branches::apart)->Name("skip/branches/both")->UseRealTime();
+BENCHMARK_CAPTURE(branches, zero, without_mu(), Branches::together)
+    ->Name("skip/zero_modulus/no_branch")
+    ->UseRealTime();
+BENCHMARK_CAPTURE(branches, tiny, nearly_without_mu(), Branches::together)
+    ->Name("skip/zero_modulus/advanced")
+    ->UseRealTime();
 BENCHMARK_CAPTURE(branches, elastic, elastic(), Branches::together)
     ->Name("skip/relaxation/from_u")
     ->UseRealTime();

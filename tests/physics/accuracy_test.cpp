@@ -32,12 +32,6 @@ struct AccuracyCase {
   friend void PrintTo(const AccuracyCase& c, std::ostream* out) { *out << c.name; }
 };
 
-Scene with_material(Scene scene, double lambda_ela, double mu_ela, double lambda_vis, double mu_vis,
-                    double density = 0.2) {
-  scene.material = {lambda_ela, mu_ela, lambda_vis, mu_vis, density, scene.material.mass};
-  return scene;
-}
-
 Scene lasting(Scene scene, double duration) {
   scene.time.duration = duration;
   return scene;

@@ -26,11 +26,6 @@ struct ScenarioCase {
   friend void PrintTo(const ScenarioCase& c, std::ostream* out) { *out << c.name; }
 };
 
-Scene with_material(Scene scene, double lambda_ela, double mu_ela, double lambda_vis, double mu_vis) {
-  scene.material = {lambda_ela, mu_ela, lambda_vis, mu_vis, 0.2, scene.material.mass};
-  return scene;
-}
-
 Scene falling(Mass mass) {
   Scene scene = off_grid_beam(mass);
   scene.body_acceleration = {0.5, -9.81};

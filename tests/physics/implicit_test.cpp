@@ -28,11 +28,6 @@ Scene implicit(Scene scene, double step) {
   return scene;
 }
 
-Scene with_material(Scene scene, double lambda_ela, double mu_ela, double lambda_vis, double mu_vis) {
-  scene.material = {lambda_ela, mu_ela, lambda_vis, mu_vis, 0.2, scene.material.mass};
-  return scene;
-}
-
 Scene in_free_flight(Mass mass) {
   Scene scene = off_grid_beam(mass);
   scene.fixes.clear();
@@ -101,7 +96,7 @@ TEST(Implicit, ShortestStepsLoseNothing) {
 TEST(Implicit, ResolvesSlivers) {
   // A hundredth of a degree: frequencies of 2,000 /s and more beside those of 26 /s. The exact solution
   // itself has ten digits there.
-  const std::vector<double> times{0.25, 0.5};
+  const std::vector<double> times{0.5};
   for (Mass mass : {Mass::lumped, Mass::consistent}) {
     Scene scene = with_slivers(off_grid_beam(mass), 0.01);
     scene.time.duration = 0.5;
@@ -112,7 +107,7 @@ TEST(Implicit, ResolvesSlivers) {
 TEST(Implicit, PassesOverSliversThatItDoesNotResolve) {
   // Steps of 70 times RK4's limit and more. What is left of the error is the ringing of the slivers, which
   // the sudden pull excites to a thousandth of the whole.
-  const std::vector<double> times{0.25, 0.5, 0.75, 1.0};
+  const std::vector<double> times{0.5, 1.0};
   for (double degrees : {0.1, 0.01}) {
     const Scene scene = with_slivers(off_grid_beam(Mass::lumped), degrees);
     const auto exact = ExactSolution(scene).at(times);

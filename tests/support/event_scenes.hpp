@@ -19,6 +19,12 @@ inline Scene off_grid_beam(Mass mass) {
   return scene;
 }
 
+inline Scene with_material(Scene scene, double lambda_ela, double mu_ela, double lambda_vis, double mu_vis,
+                           double density = 0.2) {
+  scene.material = {lambda_ela, mu_ela, lambda_vis, mu_vis, density, scene.material.mass};
+  return scene;
+}
+
 inline std::vector<int> right_nodes(const Scene& scene) {
   return nodes_of(scene.mesh.edge_groups.at("right"));
 }

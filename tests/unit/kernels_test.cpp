@@ -26,10 +26,7 @@ TEST_P(Kernels, AgreeWithTheAssembledForm) {
     const Model model(scene.mesh, scene.material);
     Schedule schedule(scene, model);
     const Interval interval = schedule.interval(0);
-    std::mt19937 random(seed + 1000);
-    std::uniform_real_distribution<double> unit(-1.0, 1.0);
-    std::vector<double> y(model.layout.size());
-    for (double& x : y) x = unit(random);
+    const std::vector<double> y = random_state(model, seed + 1000);
     Vector base = Vector::Zero(static_cast<Eigen::Index>(model.layout.part));
 
     AssembledBody assembled(model, 0.0);
@@ -37,23 +34,7 @@ TEST_P(Kernels, AgreeWithTheAssembledForm) {
     EdgeBody edges(model, force, 1);
     const Outcome a = outcome(assembled, interval, base, y, 0.7);
     const Outcome b = outcome(edges, interval, base, y, 0.7);
-    for (std::size_t begin = 0; begin < y.size(); begin += model.layout.part) {
-      EXPECT_LT(difference(a.swept, b.swept, begin, model.layout.part), 1e-12)
-          << "seed " << seed << " part " << begin;
-    }
-    const auto near = [&](double x, double z, double scale, const char* what) {
-      EXPECT_NEAR(x, z, 1e-12 * scale) << "seed " << seed << ": " << what;
-    };
-    near(a.sample.kinetic, b.sample.kinetic, a.sample.kinetic, "kinetic");
-    near(a.sample.stored, b.sample.stored, a.sample.stored, "stored");
-    near(a.sample.dissipated, b.sample.dissipated, a.sample.dissipated, "dissipated");
-    near(a.sample.load, b.sample.load, scene.mesh.node_count() * std::abs(a.sample.load), "load");
-    const double r = a.reaction.lpNorm<Eigen::Infinity>();
-    EXPECT_LT((a.reaction - b.reaction).lpNorm<Eigen::Infinity>(), 1e-12 * r) << "seed " << seed;
-    near(a.sample.constraints, b.sample.constraints, r, "constraints");
-    EXPECT_NEAR(a.sample.dissipated_rate, b.sample.dissipated_rate,
-                1e-10 * (std::abs(a.sample.dissipated_rate) + a.sample.dissipated))
-        << "seed " << seed;
+    expect_alike(a, b, scene, model.layout.part, "seed " + std::to_string(seed));
   }
 }
 

@@ -19,9 +19,9 @@
 //          no handle is declared with needs a factor; a scene with more than 16 different sets of constraints
 //          makes some again at its events; session() and the vectors of active tractions.
 // Calls    of the system: on one thread none. On several, those by which OpenMP's threads wait for each other
-//          and wake each other (futex, sched_yield), from the second tick on, and they wait long where
-//          another program has a thread's processor: milliseconds, and on a busy machine many of them a tick.
-//          Bounded only by one thread (SimulationOptions::threads = 1); OMP_WAIT_POLICY=passive helps.
+//          and wake each other (futex, sched_yield), from the second tick on. Where another program has a
+//          thread's processor a tick can take milliseconds; one thread then makes the next ones alone, so that
+//          this happens in few of them. Excluded only by one thread (SimulationOptions::threads = 1).
 // Errors   the constructor: Error::Kind::input as Simulation's, handles with nodes that are not there,
 //          constraints = "baumgarte" (hands hold exactly). Later: false for what cannot be done (not finite,
 //          beyond the capacity, not grabbed), a Divergence from tick, never an exception.

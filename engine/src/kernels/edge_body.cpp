@@ -1,6 +1,7 @@
 #include "kernels/edge_body.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "kernels/node_blocks.hpp"
@@ -29,6 +30,7 @@ EdgeBody::EdgeBody(const Model& model, const EdgeForce& force, int threads)
       terms_(mass_, form_.kernel_node, block_ends(form_.blocks)) {
   const auto n = static_cast<std::size_t>(form_.nodes);
   const Material& m = model.material;
+  assert(form_.moduli.has_value() == combined(m).has_value());
   elastic_ = form_.moduli && m.lambda_rate() == 0.0 && m.mu_rate() == 0.0;
   state_.assign((row() + (elastic_ ? 2 : 4)) * n, 0.0);
   find_block_begins(
