@@ -108,19 +108,13 @@ class Planner {
     return candidate.cost * least_evaluations(candidate.kind);
   }
 
-  double largest_rate() const {
-    const Spectrum& s = spectrum_;
-    return std::max(s.lambda_on ? s.lambda_rate : 0.0, s.mu_on ? s.mu_rate : 0.0);
-  }
+  double largest_rate() const { return spectrum_.largest_rate(); }
 
   // The error that rounding alone comes to, in a run of so many steps with an order; 0: with the exponential
   // integrator, whose few steps do not count.
   double floor_of(double steps) const {
     const Spectrum& s = spectrum_;
-    double slowest = forever;
-    if (s.lambda_on) slowest = std::min(slowest, s.lambda_rate);
-    if (s.mu_on) slowest = std::min(slowest, s.mu_rate);
-    const double time = std::min(scene_.time.duration, memory / slowest);
+    const double time = std::min(scene_.time.duration, memory / s.slowest_rate());
     const double by_steps =
         edge_kernel_ ? rounding_of_edge_step * steps : rounding_of_root_step * std::sqrt(steps);
     return rounding * (rounding_of_run + rounding_of_radian * s.omega_max * time +

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rheo {
 namespace {
@@ -10,15 +11,44 @@ ConstVectorMap part(const Layout& layout, std::span<const double> y, std::size_t
   return {y.data() + offset, static_cast<Eigen::Index>(layout.part)};
 }
 
+// u, v, and every branch by itself while they are few; else all branches of a modulus together, with the
+// smallest one's size over the largest's at the largest frequency.
+std::vector<StatePart> parts_of(const Model& model) {
+  constexpr std::size_t most = 16;  // LinearOperator::parts
+  const Layout& layout = model.layout;
+  if (2 + layout.branches.size() <= most)
+    return std::vector<StatePart>(2 + layout.branches.size(), {layout.part, 1.0});
+  std::vector<StatePart> parts(2, {layout.part, 1.0});
+  for (const Modulus modulus : {Modulus::lambda, Modulus::mu}) {
+    StatePart all;
+    double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
+    for (const BranchPart& branch : layout.branches) {
+      if (branch.modulus != modulus) continue;
+      const double reach = branch.ela / (branch.rate + model.element_omega);
+      smallest = std::min(smallest, reach);
+      largest = std::max(largest, reach);
+      all.size += layout.part;
+    }
+    if (all.size == 0) continue;
+    all.share = smallest / largest;
+    parts.push_back(all);
+  }
+  return parts;
+}
+
 }  // namespace
 
-AssembledBody::AssembledBody(const Model& model, double omega) : Body(model, omega) {
+AssembledBody::AssembledBody(const Model& model, double omega)
+    : Body(model, omega),
+      one_branch_(model.material.is_one_branch()),
+      feeds_on_u_(model.material.elastic.lambda > 0.0 || model.material.elastic.mu > 0.0),
+      parts_(parts_of(model)) {
   state_.assign(model.layout.size(), 0.0);
-  parts_.assign(model.layout.size() / model.layout.part, {model.layout.part, 1.0});
   rate_.assign(model.layout.size(), 0.0);
   // All memory of a step is taken here.
   const auto part = static_cast<Eigen::Index>(model.layout.part);
-  for (Vector* v : {&rhs_, &momentum_, &reaction_, &reaction_rate_, &external_}) v->setZero(part);
+  for (Vector* v : {&pull_, &product_, &rhs_, &momentum_, &reaction_, &reaction_rate_, &external_})
+    v->setZero(part);
   for (Evaluation* e : {&work_, &evaluation_, &derivative_}) {
     e->acceleration.setZero(part);
     if (model.layout.lambda) e->force_lambda.setZero(part);
@@ -57,7 +87,6 @@ void AssembledBody::impose_prescribed(double t) {
 
 void AssembledBody::evaluate(std::span<const double> x, const Forcing& forcing, Evaluation& result) {
   const Layout& layout = model_.layout;
-  const auto part = static_cast<Eigen::Index>(layout.part);
   ++counters_.force_evaluations;
 
   rhs_ = forcing.weight[0] * interval_->force;
@@ -65,11 +94,12 @@ void AssembledBody::evaluate(std::span<const double> x, const Forcing& forcing, 
     rhs_ += (forcing.weight[0] * (forcing.t - interval_->begin) + forcing.weight[1]) * interval_->force_rate;
   }
   if (layout.lambda) {
-    result.force_lambda.noalias() = model_.j_lambda * ConstVectorMap(x.data() + layout.w_lambda(), part);
+    result.force_lambda.noalias() =
+        model_.j_lambda * sum_of_parts(model_, Modulus::lambda, PartSum::pull, x, pull_);
     rhs_ -= result.force_lambda;
   }
   if (layout.mu) {
-    result.force_mu.noalias() = model_.j_mu * ConstVectorMap(x.data() + layout.w_mu(), part);
+    result.force_mu.noalias() = model_.j_mu * sum_of_parts(model_, Modulus::mu, PartSum::pull, x, pull_);
     rhs_ -= result.force_mu;
   }
 
@@ -100,42 +130,40 @@ void AssembledBody::fma(double h, std::span<const double> x, std::span<const dou
   evaluated_ = false;  // the caller is about to change the state
   evaluate(x, forcing, work_);
   const Layout& layout = model_.layout;
-  const Material& material = model_.material;
   const std::size_t part = layout.part;
   const double* v = x.data() + layout.v();
-  // Only Baumgarte's terms feed on u.
-  if (result == Result::step || !interval_->solver->columns().empty()) {
+  // Only Baumgarte's terms and the elastic part feed on u.
+  if (result == Result::step || feeds_on_u_ || !interval_->solver->columns().empty()) {
     ++counters_.displacement_updates;
     for (std::size_t i = 0; i < part; ++i) out[layout.u() + i] = base[layout.u() + i] + h * v[i];
   }
   for (std::size_t i = 0; i < part; ++i)
     out[layout.v() + i] = base[layout.v() + i] + h * work_.acceleration[i];
-  const auto branch = [&](std::size_t offset, double ela, double decay) {
+  for (const BranchPart& branch : layout.branches) {
     ++counters_.branch_updates;
+    const std::size_t offset = branch.offset;
+    const double ela = branch.ela, decay = branch.rate;
     const double* w = x.data() + offset;
     for (std::size_t i = 0; i < part; ++i)
       out[offset + i] = base[offset + i] + h * (ela * v[i] - decay * w[i]);
-  };
-  if (layout.lambda) branch(layout.w_lambda(), material.lambda_ela, material.lambda_rate());
-  if (layout.mu) branch(layout.w_mu(), material.mu_ela, material.mu_rate());
+  }
 }
 
 void AssembledBody::evaluate_state(double t) {
   if (evaluated_) return;
   evaluate(state_, {t, {1.0, 0.0, 0.0, 0.0}}, evaluation_);
   const Layout& layout = model_.layout;
-  const Material& material = model_.material;
   const double* v = state_.data() + layout.v();
   for (std::size_t i = 0; i < layout.part; ++i) {
     rate_[layout.u() + i] = v[i];
     rate_[layout.v() + i] = evaluation_.acceleration[i];
   }
-  const auto branch = [&](std::size_t offset, double ela, double decay) {
+  for (const BranchPart& branch : layout.branches) {
+    const std::size_t offset = branch.offset;
+    const double ela = branch.ela, decay = branch.rate;
     const double* w = state_.data() + offset;
     for (std::size_t i = 0; i < layout.part; ++i) rate_[offset + i] = ela * v[i] - decay * w[i];
-  };
-  if (layout.lambda) branch(layout.w_lambda(), material.lambda_ela, material.lambda_rate());
-  if (layout.mu) branch(layout.w_mu(), material.mu_ela, material.mu_rate());
+  }
   evaluated_ = true;
 }
 
@@ -148,20 +176,36 @@ EnergySample AssembledBody::sample(double t) {
   const Layout& layout = model_.layout;
   const Material& material = model_.material;
   EnergySample p;
-  const auto branch = [&](std::size_t offset, const Vector& force, double ela, double vis) {
-    const double stored = part(layout, state_, offset).dot(force);
-    p.stored += 0.5 * stored / ela;
-    if (std::isinf(vis)) return;
-    p.dissipated += stored / vis;
-    p.dissipated_rate += 2.0 * part(layout, rate_, offset).dot(force) / vis;
-  };
-  if (layout.lambda)
-    branch(layout.w_lambda(), evaluation_.force_lambda, material.lambda_ela, material.lambda_vis);
-  if (layout.mu) branch(layout.w_mu(), evaluation_.force_mu, material.mu_ela, material.mu_vis);
-
   const auto u = part(layout, state_, layout.u());
   const auto v = part(layout, state_, layout.v());
   const auto a = part(layout, rate_, layout.v());
+  for (const BranchPart& branch : layout.branches) {
+    const Vector* force = &product_;
+    if (one_branch_) {
+      force = branch.modulus == Modulus::lambda ? &evaluation_.force_lambda : &evaluation_.force_mu;
+    } else {
+      product_.noalias() = model_.j(branch.modulus) * part(layout, state_, branch.offset);
+    }
+    const double stored = part(layout, state_, branch.offset).dot(*force);
+    p.stored += 0.5 * stored / branch.ela;
+    if (std::isinf(branch.vis)) continue;
+    p.dissipated += stored / branch.vis;
+    p.dissipated_rate += 2.0 * part(layout, rate_, branch.offset).dot(*force) / branch.vis;
+  }
+  const auto parallel = [&](Modulus modulus, double elastic, double viscous) {
+    if (elastic > 0.0) {
+      product_.noalias() = model_.j(modulus) * u;
+      p.stored += 0.5 * elastic * u.dot(product_);
+    }
+    if (viscous > 0.0) {
+      product_.noalias() = model_.j(modulus) * v;
+      p.dissipated += viscous * v.dot(product_);
+      p.dissipated_rate += 2.0 * viscous * a.dot(product_);
+    }
+  };
+  parallel(Modulus::lambda, material.elastic.lambda, material.viscous.lambda);
+  parallel(Modulus::mu, material.elastic.mu, material.viscous.mu);
+
   model_.multiply_mass(v.data(), momentum_.data());
   p.kinetic = 0.5 * v.dot(momentum_);
   p.load = interval_->force.dot(u);

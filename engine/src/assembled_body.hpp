@@ -31,7 +31,7 @@ class AssembledBody : public Body {
   // All there is to know of a state's forces at one time.
   struct Evaluation {
     Vector acceleration;
-    Vector force_lambda, force_mu;  // J_lambda w_lambda, J_mu w_mu; empty for a branch that is off
+    Vector force_lambda, force_mu;  // J_lambda p_lambda, J_mu p_mu; empty for a modulus that is off
     Vector multipliers;             // one per general constraint
   };
 
@@ -41,9 +41,12 @@ class AssembledBody : public Body {
   void reaction(const Evaluation& evaluation, const Forcing& forcing, Vector& out);
 
   Evaluation work_, evaluation_, derivative_;
-  std::vector<StatePart> parts_;  // u, v, w_lambda, w_mu
+  bool one_branch_;               // nothing else: evaluate() has every force that the energies want
+  bool feeds_on_u_;               // an elastic part
+  std::vector<StatePart> parts_;  // u, v, w of each branch, or of each modulus where they are many
   std::vector<double> rate_;
   bool evaluated_ = false;
+  Vector pull_, product_;  // p; J times a part
   Vector rhs_, target_, momentum_, reaction_, reaction_rate_, external_;
   std::vector<char> constrained_;  // by degree of freedom
 };

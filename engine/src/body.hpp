@@ -1,9 +1,10 @@
 // The rheological body between two events as a linear operator y' = A y + g(t), with the state it acts on.
 //
 //   u'        = v
-//   M v'      = f(t) - J_lambda w_lambda - J_mu w_mu + A L,  v_c' = b''(t) where a degree of freedom is
+//   M v'      = f(t) - J_lambda p_lambda - J_mu p_mu + A L,  v_c' = b''(t) where a degree of freedom is
 //   eliminated A^T v'    = b'' - 2 omega (A^T v - b') - omega^2 (A^T u - b) for the general constraints
-//   w_lambda' = -lambda_rate w_lambda + lambda_ela v,  w_mu' likewise
+//   w_lambda' = -lambda_rate w_lambda + lambda_ela v of each branch,  w_mu' likewise
+//   p_lambda  = sum of w_lambda + elastic_lambda u + viscous_lambda v,  p_mu likewise
 //
 // Each kind of body keeps its state in an order of its own; load() and store() translate to the mesh's
 // (Layout).

@@ -5,6 +5,8 @@
 #include "assembled_body.hpp"
 #include "kernels/edge_body.hpp"
 #include "kernels/element_body.hpp"
+#include "kernels/parallel_edge_body.hpp"
+#include "kernels/parallel_element_body.hpp"
 #include "rheo/error.hpp"
 #include "schedule.hpp"
 #include "shifted_body.hpp"
@@ -35,6 +37,10 @@ Assembly assembly_for(const Scene& scene, Kernel kernel, SimdLevel level) {
 }
 
 std::unique_ptr<Body> make_body(const Scene& scene, const Model& model, int threads) {
+  const bool parallel = !scene.material.is_one_branch();
+  if (model.edges && parallel) return std::make_unique<ParallelEdgeBody>(model, *model.edges, threads);
+  if (model.elements && parallel)
+    return std::make_unique<ParallelElementBody>(model, *model.elements, threads);
   if (model.edges) return std::make_unique<EdgeBody>(model, *model.edges, threads);
   if (model.elements) return std::make_unique<ElementBody>(model, *model.elements, threads);
   if (scene.time.integrator == IntegratorKind::implicit) {

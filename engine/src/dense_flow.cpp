@@ -83,7 +83,9 @@ class Flow {
         inverse_mass_(matrices_.mass.llt().solve(Matrix::Identity(size_, size_))),
         holders_(holders_of(scene)),
         events_(event_times(scene)),
-        y_(Vector::Zero(4 * size_)),
+        branches_(branches_of(scene.material)),
+        parts_(2 + static_cast<Index>(branches_.size())),
+        y_(Vector::Zero(parts_ * size_)),
         base_(Vector::Zero(size_)),
         owner_(static_cast<std::size_t>(size_), -1) {
     enter(0);
@@ -98,9 +100,34 @@ class Flow {
     }
   }
 
-  std::vector<double> state() const { return {y_.data(), y_.data() + y_.size()}; }
+  // u, v and, of each modulus, the residual forces of all but the elastic part.
+  std::vector<double> state() const {
+    Vector total = Vector::Zero(4 * size_);
+    total.head(2 * size_) = y_.head(2 * size_);
+    for (std::size_t k = 0; k < branches_.size(); ++k)
+      total.segment((branches_[k].lambda ? 2 : 3) * size_, size_) += part(2 + static_cast<Index>(k));
+    const Moduli& viscous = scene_.material.viscous;
+    total.segment(2 * size_, size_) += viscous.lambda * part(1);
+    total.segment(3 * size_, size_) += viscous.mu * part(1);
+    return {total.data(), total.data() + total.size()};
+  }
 
  private:
+  struct Branch {
+    bool lambda = true;
+    double ela = 0.0, rate = 0.0;
+  };
+  static std::vector<Branch> branches_of(const Material& material) {
+    std::vector<Branch> branches;
+    for (std::size_t k = 0; k < material.branch_count(); ++k) {
+      const MaxwellBranch b = material.branch(k);
+      if (k == 0 || b.lambda_ela > 0.0) branches.push_back({true, b.lambda_ela, b.lambda_rate()});
+      if (k == 0 || b.mu_ela > 0.0) branches.push_back({false, b.mu_ela, b.mu_rate()});
+    }
+    return branches;
+  }
+  Eigen::Map<const Vector> part(Index k) const { return {y_.data() + k * size_, size_}; }
+
   double begin() const { return events_[index_]; }
   bool last() const { return index_ + 1 == events_.size(); }
   double end() const { return last() ? begin() + scene_.time.duration : events_[index_ + 1]; }
@@ -187,23 +214,27 @@ class Flow {
       const double size = j.cwiseAbs().colwise().sum().maxCoeff();
       return ela > 0.0 && size > 0.0 ? std::sqrt(ela / size) : 1.0;
     };
-    unit_ = {any_soft && omega > 0.0 ? 1.0 / omega : 1.0, 1.0, level(material.lambda_ela, lambda),
-             level(material.mu_ela, mu)};
-    const Index n = 4 * size_;
+    const Matrix elastic = material.elastic.lambda * lambda + material.elastic.mu * mu;
+    const double frequency =
+        std::max(any_soft ? omega : 0.0, std::sqrt(elastic.cwiseAbs().colwise().sum().maxCoeff()));
+    unit_ = {frequency > 0.0 ? 1.0 / frequency : 1.0, 1.0};
+    for (const Branch& branch : branches_) unit_.push_back(level(branch.ela, branch.lambda ? lambda : mu));
+    const Index n = parts_ * size_;
     operator_.setZero(n + powers, n + powers);
     const auto block = [&](int row, int column) {
       return operator_.block(row * size_, column * size_, size_, size_);
     };
     const Matrix identity = Matrix::Identity(size_, size_);
     block(0, 1) = identity / unit_[0];
-    block(1, 0) = -omega * omega * unit_[0] * (gain_ * soft);
-    block(1, 1) = -2.0 * omega * (gain_ * soft);
-    block(1, 2) = -unit_[2] * lambda;
-    block(1, 3) = -unit_[3] * mu;
-    block(2, 1) = material.lambda_ela / unit_[2] * identity;
-    block(2, 2) = -material.lambda_rate() * identity;
-    block(3, 1) = material.mu_ela / unit_[3] * identity;
-    block(3, 3) = -material.mu_rate() * identity;
+    block(1, 0) = -unit_[0] * (omega * omega * (gain_ * soft) + elastic);
+    block(1, 1) = -2.0 * omega * (gain_ * soft) - material.viscous.lambda * lambda - material.viscous.mu * mu;
+    for (std::size_t k = 0; k < branches_.size(); ++k) {
+      const Branch& branch = branches_[k];
+      const int place = static_cast<int>(k) + 2;
+      block(1, place) = -unit_[k + 2] * (branch.lambda ? lambda : mu);
+      block(place, 1) = branch.ela / unit_[k + 2] * identity;
+      block(place, place) = -branch.rate * identity;
+    }
 
     length_ = end() - begin();
     Matrix forcing(size_, powers);
@@ -269,18 +300,18 @@ class Flow {
     } else {
       rest_ = 0.0;
     }
-    Vector z(4 * size_ + powers);
-    for (int part = 0; part < 4; ++part)
-      z.segment(part * size_, size_) = y_.segment(part * size_, size_) / unit_[part];
+    Vector z(parts_ * size_ + powers);
+    for (Index k = 0; k < parts_; ++k)
+      z.segment(k * size_, size_) = part(k) / unit_[static_cast<std::size_t>(k)];
     const double s = (now_ + rest_before - begin()) / length_;
     double power = forcing_unit_;
     for (int k = 0; k < powers; ++k) {
-      z[4 * size_ + k] = power;
+      z[parts_ * size_ + k] = power;
       power *= s / (k + 1);
     }
     z = (flow(d) * z).eval();
-    for (int part = 0; part < 4; ++part)
-      y_.segment(part * size_, size_) = unit_[part] * z.segment(part * size_, size_);
+    for (Index k = 0; k < parts_; ++k)
+      y_.segment(k * size_, size_) = unit_[static_cast<std::size_t>(k)] * z.segment(k * size_, size_);
     now_ = t;
     impose(t);
   }
@@ -293,13 +324,15 @@ class Flow {
   std::vector<double> events_;
   std::size_t index_ = 0;
   double now_ = 0.0;
-  double rest_ = 0.0;  // the state is at now_ + rest_
+  double rest_ = 0.0;             // the state is at now_ + rest_
+  std::vector<Branch> branches_;  // the first of both moduli, whether on or not; then those that are on
+  Index parts_;                   // u, v, w of each branch
   Vector y_, base_;
   std::vector<int> owner_;  // by degree of freedom: who holds it, -1: nobody
   std::vector<Row> rows_;
   std::vector<std::array<Polynomial, 2>> courses_;
   Matrix gain_, operator_;
-  std::array<double, 4> unit_{};
+  std::vector<double> unit_;  // by part
   double length_ = 1.0, forcing_unit_ = 1.0;
   std::map<double, Matrix> flows_;
 };

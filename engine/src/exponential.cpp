@@ -128,6 +128,7 @@ void Exponential::advance(LinearOperator& op, double t, double h, std::size_t k,
   if (plan_.shift != 0.0) {
     const double shift = factor * plan_.shift;
     for (std::size_t i = 0; i < v.size(); ++i) before[i] += shift * v[i];
+    op.renew(before);
   }
   for (std::size_t j = 4; j-- > 0;) {
     const double slope = (j > 0 ? c_[j - 1] / h : 0.0) + plan_.shift * c_[j];
@@ -155,7 +156,8 @@ void Exponential::include(double factor, const std::vector<double>& sizes, std::
 std::size_t Exponential::first_look(std::span<const StatePart> parts) const {
   double size = 0.0;
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    if (scale_[p] > 0.0) size = std::max(size, std::max(size_[p], size_before_[p]) / scale_[p]);
+    if (parts[p].share > 0.0 && scale_[p] > 0.0)
+      size = std::max(size, std::max(size_[p], size_before_[p]) / scale_[p]);
   }
   const double allowed = plan_.tolerance / (size > 0.0 ? std::min(size, 1.0) : 1.0);
   std::size_t first = 1;
@@ -170,7 +172,7 @@ Exponential::Outcome Exponential::judge(std::span<const StatePart> parts, std::s
   include(factor, size_before_, rest_);
   const auto small_enough = [&](const std::vector<double>& scale) {
     for (std::size_t p = 0; p < parts.size(); ++p) {
-      if (!(rest_[p] <= plan_.tolerance * parts[p].share * scale[p])) return false;
+      if (parts[p].share > 0.0 && !(rest_[p] <= plan_.tolerance * parts[p].share * scale[p])) return false;
     }
     return true;
   };
@@ -179,7 +181,7 @@ Exponential::Outcome Exponential::judge(std::span<const StatePart> parts, std::s
   const auto well_rounded = [&](const std::vector<double>& scale) {
     const double lost_to_rounding = rounding / (0.1 * std::max(settings_.tolerance, 1e-12));
     for (std::size_t p = 0; p < parts.size(); ++p) {
-      if (!(lost_to_rounding * peak_[p] <= scale[p])) return false;
+      if (parts[p].share > 0.0 && !(lost_to_rounding * peak_[p] <= scale[p])) return false;
     }
     return true;
   };
@@ -289,6 +291,7 @@ void Exponential::step(LinearOperator& op, double t, double h, std::span<double>
         break;
       }
       std::copy(sum_.begin(), sum_.end(), y.begin());
+      op.renew(y);
       done = k + 1 == parts ? h : begin + (k + 1) * length;
     }
   }

@@ -1,14 +1,16 @@
-// Every eigenvalue of the operator on (v, w_lambda, w_mu) of a small body, for limits that hang on the
+// Every eigenvalue of the operator of a small body, but for constraints' own, for limits that hang on the
 // damping of single modes.
 //
-//   v' = - P M^-1 (J_lambda w_lambda + J_mu w_mu),  w_lambda' = ela v - rate w_lambda, w_mu' likewise
+//   v' = - P M^-1 (sum over k of K_k q_k + (viscous_lambda J_lambda + viscous_mu J_mu) v)
+//   q_k' = v - rate_k q_k,  K_k = lambda_k J_lambda + mu_k J_mu
 //
-// P is the projection by the constraints; u feeds on nothing and is left out. Dense: (3 n)^3 operations for n
-// free degrees of freedom, hence for small ones only.
+// P is the projection by the constraints; the springs of one rate make one k (relaxations_of), the elastic
+// part is that of rate 0, where q is u. Dense: ((1 + rates) n)^3 operations for n free degrees of freedom,
+// hence for small ones only.
 //
 // Source   design: full operator where rates matter; Eigen's QR algorithm for the eigenvalues
 // Units    eigenvalues [1/s]
-// Errors   none: empty beyond `most_free_dofs`
+// Errors   none: empty beyond `most_eigenvalues`, or where nothing is free or stiff
 #pragma once
 
 #include <complex>
@@ -19,7 +21,7 @@
 
 namespace rheo {
 
-inline constexpr int most_free_dofs = 160;
+inline constexpr int most_eigenvalues = 480;
 
 std::vector<std::complex<double>> full_spectrum(const Model& model, const ConstraintSolver& solver);
 

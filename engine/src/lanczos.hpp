@@ -1,6 +1,6 @@
 // Largest natural frequency of what the constraints leave free.
 //
-//   omega_max^2 = largest eigenvalue of P M^-1 (lambda_ela J_lambda + mu_ela J_mu),  P the projection by the
+//   omega_max^2 = largest eigenvalue of P M^-1 (lambda J_lambda + mu J_mu),  P the projection by the
 //   constraints
 //
 // The operator is self-adjoint in the inner product of M: three-term Lanczos, from a fixed pseudo-random
@@ -20,6 +20,7 @@ struct RitzBound {
   int steps = 0;
 };
 
-RitzBound largest_frequency(const Model& model, const ConstraintSolver& solver);
+// Of springs of these moduli.
+RitzBound largest_frequency(const Model& model, const ConstraintSolver& solver, const Moduli& moduli);
 
 }  // namespace rheo

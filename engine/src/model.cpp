@@ -24,9 +24,7 @@ std::array<Corner, 3> corners(const Mesh& mesh, const Triangle& t) {
   return result;
 }
 
-enum class Tensor { lambda, mu };
-
-SparseMatrix connection_matrix(const Mesh& mesh, Tensor tensor) {
+SparseMatrix connection_matrix(const Mesh& mesh, Modulus modulus) {
   std::vector<Triplet> entries;
   entries.reserve(mesh.triangles.size() * 36);
   for (int e = 0; e < mesh.triangle_count(); ++e) {
@@ -41,7 +39,7 @@ SparseMatrix connection_matrix(const Mesh& mesh, Tensor tensor) {
         const double cc = scale * q[i].c * q[j].c;
         const int r = 2 * t[i];
         const int s = 2 * t[j];
-        const bool is_lambda = tensor == Tensor::lambda;
+        const bool is_lambda = modulus == Modulus::lambda;
         entries.emplace_back(r, s, is_lambda ? bb : 2 * bb + cc);
         entries.emplace_back(r, s + 1, is_lambda ? bc : cb);
         entries.emplace_back(r + 1, s, is_lambda ? cb : bc);
@@ -57,10 +55,10 @@ SparseMatrix connection_matrix(const Mesh& mesh, Tensor tensor) {
 // Largest eigenvalue of M_e^-1 K_e. B annihilates translations, so that M_e^-1 acts as 3 / (density h T)
 // (lumped) or 12 / (density h T) (consistent), and the eigenvalues are those of the 3 x 3 product P = D G, G
 // = B B^T: real, by the trigonometric solution of the characteristic cubic.
-double element_eigenvalue(const Mesh& mesh, int e, const Material& material) {
+double element_eigenvalue(const Mesh& mesh, int e, const Moduli& moduli, const Material& material) {
   const auto q = corners(mesh, mesh.triangles[e]);
-  const double la = material.lambda_ela;
-  const double mu = material.mu_ela;
+  const double la = moduli.lambda;
+  const double mu = moduli.mu;
   const double largest = std::max(la, mu);
   if (largest == 0.0) return 0.0;
   // Dimensionless: tiny and huge triangles and moduli lose nothing.
@@ -96,22 +94,37 @@ double element_eigenvalue(const Mesh& mesh, int e, const Material& material) {
 
 }  // namespace
 
-Model::Model(const Mesh& mesh, const Material& m, Assembly assembly) : material(m) {
-  layout.part = 2 * mesh.points.size();
-  layout.lambda = m.lambda_ela > 0.0;
-  layout.mu = m.mu_ela > 0.0;
+Layout::Layout(const Mesh& mesh, const Material& material) : part(2 * mesh.points.size()) {
+  const auto add = [&](Modulus modulus, std::size_t number, double ela, double vis, double rate) {
+    if (ela > 0.0) branches.push_back({modulus, number, ela, vis, rate, size()});
+  };
+  for (std::size_t k = 0; k < material.branch_count(); ++k) {
+    const MaxwellBranch b = material.branch(k);
+    add(Modulus::lambda, k, b.lambda_ela, b.lambda_vis, b.lambda_rate());
+  }
+  lambda = !branches.empty() || material.elastic.lambda > 0.0 || material.viscous.lambda > 0.0;
+  first_mu = size();
+  for (std::size_t k = 0; k < material.branch_count(); ++k) {
+    const MaxwellBranch b = material.branch(k);
+    add(Modulus::mu, k, b.mu_ela, b.mu_vis, b.mu_rate());
+  }
+  mu = size() > first_mu || material.elastic.mu > 0.0 || material.viscous.mu > 0.0;
+}
+
+Model::Model(const Mesh& mesh, const Material& m, Assembly assembly) : material(m), layout(mesh, m) {
   if (assembly == Assembly::edges) {
     edges = std::make_unique<EdgeForce>(std::make_shared<EdgeForm>(mesh, combined(m)), best_simd_level());
   } else if (assembly == Assembly::elements) {
     elements = std::make_unique<ElementForce>(std::make_shared<ElementForm>(mesh, Regions{{m}, {}}),
                                               best_simd_level());
   } else {
-    if (layout.lambda) j_lambda = connection_matrix(mesh, Tensor::lambda);
-    if (layout.mu) j_mu = connection_matrix(mesh, Tensor::mu);
+    if (layout.lambda) j_lambda = connection_matrix(mesh, Modulus::lambda);
+    if (layout.mu) j_mu = connection_matrix(mesh, Modulus::mu);
   }
 
   node_mass = Vector::Zero(mesh.node_count());
   std::vector<Triplet> entries;
+  const Moduli springs = m.instantaneous();
   double eigenvalue = 0.0;
   for (int e = 0; e < mesh.triangle_count(); ++e) {
     const Triangle& t = mesh.triangles[e];
@@ -122,7 +135,8 @@ Model::Model(const Mesh& mesh, const Material& m, Assembly assembly) : material(
         for (int j = 0; j < 3; ++j) entries.emplace_back(t[i], t[j], triangle_mass / (i == j ? 6 : 12));
       }
     }
-    eigenvalue = std::max(eigenvalue, element_eigenvalue(mesh, e, m));
+    eigenvalue = std::max(eigenvalue, element_eigenvalue(mesh, e, springs, m));
+    element_viscous = std::max(element_viscous, element_eigenvalue(mesh, e, m.viscous, m));
   }
   element_omega = std::sqrt(eigenvalue);
   if (m.mass == Mass::consistent) {
@@ -158,6 +172,34 @@ Vector Model::stiffness(double lambda, double mu, const Vector& x) const {
   if (layout.lambda && lambda != 0.0) result += lambda * (j_lambda * x);
   if (layout.mu && mu != 0.0) result += mu * (j_mu * x);
   return result;
+}
+
+ConstVectorMap sum_of_parts(const Model& model, Modulus modulus, PartSum sum, std::span<const double> y,
+                            Vector& memory) {
+  const Layout& layout = model.layout;
+  const auto part = [&](std::size_t offset) {
+    return ConstVectorMap(y.data() + offset, static_cast<Eigen::Index>(layout.part));
+  };
+  const bool is_lambda = modulus == Modulus::lambda;
+  const Material& material = model.material;
+  const double viscous = is_lambda ? material.viscous.lambda : material.viscous.mu;
+  const double springs = is_lambda ? material.elastic.lambda : material.elastic.mu;
+  const double elastic = sum == PartSum::pull ? springs : 0.0;
+  const BranchPart* only = nullptr;
+  int terms = (viscous > 0.0 ? 1 : 0) + (elastic > 0.0 ? 1 : 0);
+  for (const BranchPart& branch : layout.branches) {
+    if (branch.modulus != modulus) continue;
+    only = &branch;
+    ++terms;
+  }
+  if (terms == 1 && only != nullptr) return part(only->offset);
+  memory.setZero(static_cast<Eigen::Index>(layout.part));
+  for (const BranchPart& branch : layout.branches) {
+    if (branch.modulus == modulus) memory += part(branch.offset);
+  }
+  if (viscous > 0.0) memory += viscous * part(layout.v());
+  if (elastic > 0.0) memory += elastic * part(layout.u());
+  return {memory.data(), memory.size()};
 }
 
 }  // namespace rheo

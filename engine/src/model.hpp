@@ -13,6 +13,8 @@
 #include <Eigen/SparseCore>
 #include <cstddef>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "kernels/edge_force.hpp"
 #include "kernels/element_force.hpp"
@@ -25,17 +27,36 @@ using Vector = Eigen::VectorXd;
 using ConstVectorMap = Eigen::Map<const Eigen::VectorXd>;
 using VectorMap = Eigen::Map<Eigen::VectorXd>;
 
-// The flat state y = (u, v, w_lambda, w_mu), each 2n numbers; a branch with a zero modulus has no part.
+enum class Modulus { lambda, mu };
+
+// A Maxwell branch of one modulus and the part w of the state that is its own: w' = ela v - rate w.
+struct BranchPart {
+  Modulus modulus = Modulus::lambda;
+  std::size_t number = 0;  // Material::branch
+  double ela = 0.0, vis = 0.0, rate = 0.0;
+  std::size_t offset = 0;  // in the state
+};
+
+// The flat state y = (u, v, w_lambda of each branch, w_mu of each branch), each 2n numbers; a branch with a
+// zero modulus has no part.
 struct Layout {
-  std::size_t part = 0;  // 2n
-  bool lambda = true;
-  bool mu = true;
+  Layout() = default;
+  Layout(const Mesh& mesh, const Material& material);
+
+  std::size_t part = 0;              // 2n
+  bool lambda = true;                // whether any force hangs on J_lambda
+  bool mu = true;                    // likewise
+  std::vector<BranchPart> branches;  // in the state's order
 
   std::size_t u() const { return 0; }
   std::size_t v() const { return part; }
+  // Of the first branch of either that is on.
   std::size_t w_lambda() const { return 2 * part; }
-  std::size_t w_mu() const { return (lambda ? 3 : 2) * part; }
-  std::size_t size() const { return (2 + (lambda ? 1 : 0) + (mu ? 1 : 0)) * part; }
+  std::size_t w_mu() const { return first_mu; }
+  std::size_t size() const { return (2 + branches.size()) * part; }
+
+ private:
+  std::size_t first_mu = 0;
 };
 
 // Whether J_lambda and J_mu are assembled, or left to the edge or the element form.
@@ -46,20 +67,32 @@ struct Model {
 
   // out = M x for x of 2n numbers.
   void multiply_mass(const double* x, double* out) const;
+  const SparseMatrix& j(Modulus modulus) const { return modulus == Modulus::lambda ? j_lambda : j_mu; }
   // (lambda J_lambda + mu J_mu) x
   Vector stiffness(double lambda, double mu, const Vector& x) const;
 
   Material material;
   Layout layout;
-  SparseMatrix j_lambda;  // empty where lambda_ela = 0, and without Assembly::matrices
+  SparseMatrix j_lambda;  // empty where no force hangs on it, and without Assembly::matrices
   SparseMatrix j_mu;
   std::unique_ptr<EdgeForce> edges;        // with Assembly::edges
   std::unique_ptr<ElementForce> elements;  // with Assembly::elements
   Vector node_mass;
   SparseMatrix mass;
 
-  // Largest natural frequency of a single triangle: an upper bound for the mesh [rad/s].
+  // Of a single triangle, an upper bound for the mesh: the largest natural frequency of all springs [rad/s];
+  // the largest rate of the viscous part, an eigenvalue of M^-1 (viscous_lambda J_lambda + viscous_mu J_mu)
+  // [1/s].
   double element_omega = 0.0;
+  double element_viscous = 0.0;
 };
+
+// p of one modulus from a state, as far as it is asked for:
+//   residual   sum over the branches of w + viscous v
+//   pull       residual + elastic u: the force is J p
+enum class PartSum { residual, pull };
+// In `memory` (2n), or where one branch is all of it, that part of y itself; zeros where nothing is on.
+ConstVectorMap sum_of_parts(const Model& model, Modulus modulus, PartSum sum, std::span<const double> y,
+                            Vector& memory);
 
 }  // namespace rheo

@@ -134,27 +134,43 @@ std::shared_ptr<const ConstraintSolver> Schedule::solver_holding(std::size_t i,
 void Schedule::make_spectrum() {
   const Material& material = scene_.material;
   Spectrum& s = spectrum_;
-  s.lambda_on = material.lambda_ela > 0.0;
-  s.mu_on = material.mu_ela > 0.0;
-  s.lambda_rate = material.lambda_rate();
+  s.lambda_on = model_.layout.lambda;
+  s.mu_on = model_.layout.mu;
+  for (const BranchPart& branch : model_.layout.branches) {
+    double& rate = branch.modulus == Modulus::lambda ? s.lambda_rate : s.mu_rate;
+    rate = std::max(rate, branch.rate);
+  }
   // Rates that differ by rounding are one: the branches are combined then.
-  s.mu_rate = s.lambda_on && s.mu_on && combined(material) ? s.lambda_rate : material.mu_rate();
+  if (s.lambda_on && s.mu_on && combined(material)) s.mu_rate = s.lambda_rate;
   // J_lambda never exceeds J_mu: (e_x + e_y)^2 <= 2 e_x^2 + 2 e_y^2 + g^2.
-  if (s.lambda_on) s.lambda_share = material.lambda_ela / (material.lambda_ela + material.mu_ela);
+  const Moduli springs = material.instantaneous();
+  if (springs.lambda > 0.0) s.lambda_share = springs.lambda / (springs.lambda + springs.mu);
   s.element_bound = model_.element_omega;
-  double omega = 0.0;
+  const bool parallel = !material.is_one_branch();
+  if (parallel) {
+    s.relaxations = relaxations_of(material);
+    s.viscous = material.viscous;
+  }
+  const bool damped = s.viscous.lambda > 0.0 || s.viscous.mu > 0.0;
+  double omega = 0.0, damping = 0.0;
   // Every set of constraints must give its eigenvalues, or none counts.
-  bool eigenvalues = scene_.time.integrator == IntegratorKind::euler && s.lambda_on && s.mu_on &&
-                     s.lambda_rate != s.mu_rate && sets_.size() <= spectra_taken;
+  const bool rates_differ =
+      parallel ? damped || s.relaxations.size() > 1 : s.lambda_on && s.mu_on && s.lambda_rate != s.mu_rate;
+  bool eigenvalues =
+      scene_.time.integrator == IntegratorKind::euler && rates_differ && sets_.size() <= spectra_taken;
   const auto include = [&](const ConstraintSolver& constrained) {
     if (eigenvalues) {
       const auto found = full_spectrum(model_, constrained);
       eigenvalues = !found.empty();
       s.eigenvalues.insert(s.eigenvalues.end(), found.begin(), found.end());
     }
-    const RitzBound bound = largest_frequency(model_, constrained);
+    const RitzBound bound = largest_frequency(model_, constrained, springs);
     omega = std::max(omega, bound.omega);
     s.lanczos_steps = std::max(s.lanczos_steps, bound.steps);
+    if (damped) {
+      const double root = largest_frequency(model_, constrained, s.viscous).omega;
+      damping = std::max(damping, root * root);
+    }
   };
   if (sets_.size() <= spectra_taken) {
     for (const Held& set : sets_) include(*set.solver);
@@ -162,6 +178,7 @@ void Schedule::make_spectrum() {
     include(ConstraintSolver(model_, {}, {}));
   }
   s.omega_max = std::min(omega, s.element_bound);
+  s.viscous_max = std::min(damping, model_.element_viscous);
   if (!eigenvalues) s.eigenvalues.clear();
   if (has_columns(scene_)) s.baumgarte = scene_.time.baumgarte;
 }

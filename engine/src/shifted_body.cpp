@@ -1,5 +1,8 @@
 #include "shifted_body.hpp"
 
+#include <array>
+#include <utility>
+
 namespace rheo {
 
 ShiftedBody::ShiftedBody(const Model& model, double omega) : AssembledBody(model, omega), system_(model) {
@@ -32,7 +35,6 @@ double ShiftedBody::column_increment(double s, std::size_t column, std::span<con
 void ShiftedBody::solve_shifted(double s, std::span<const double> x, const Forcing& forcing,
                                 std::span<double> out) {
   const Layout& layout = model_.layout;
-  const Material& material = model_.material;
   const auto part = static_cast<Eigen::Index>(layout.part);
   const ConstVectorMap v(x.data() + layout.v(), part);
   ++counters_.force_evaluations;
@@ -65,33 +67,49 @@ void ShiftedBody::solve_shifted(double s, std::span<const double> x, const Forci
     right_ +=
         (forcing.weight[0] * (forcing.t - interval_->begin) + forcing.weight[1]) * interval_->force_rate;
   }
-  const auto pull = [&](std::size_t place, std::size_t offset, double ela, double decay) {
-    const double scale = 1.0 / (1.0 + s * decay);
+  std::array<bool, 2> begun{};  // by modulus: something is in its places already
+  for (const BranchPart& branch : layout.branches) {
+    const double scale = 1.0 / (1.0 + s * branch.rate), ela = branch.ela;
+    const std::size_t modulus = branch.modulus == Modulus::lambda ? 0 : 1;
+    const bool adds = std::exchange(begun[modulus], true);
     for (std::size_t i = 0; i < layout.part; ++i) {
       const auto k = static_cast<Eigen::Index>(i);
-      pull_[4 * (i / 2) + place + i % 2] = scale * (x[offset + i] + s * ela * (v[k] + increment_[k]));
+      double& p = pull_[4 * (i / 2) + 2 * modulus + i % 2];
+      const double w = scale * (x[branch.offset + i] + s * ela * (v[k] + increment_[k]));
+      p = adds ? p + w : w;
+    }
+  }
+  const auto pull_parallel = [&](std::size_t modulus, double elastic, double viscous) {
+    if (elastic == 0.0 && viscous == 0.0) return;
+    const bool adds = begun[modulus];
+    const double* u = x.data() + layout.u();
+    for (std::size_t i = 0; i < layout.part; ++i) {
+      const auto k = static_cast<Eigen::Index>(i);
+      double& p = pull_[4 * (i / 2) + 2 * modulus + i % 2];
+      const double now = v[k] + increment_[k];
+      const double w = elastic * (u[i] + s * now) + viscous * now;
+      p = adds ? p + w : w;
     }
   };
-  if (layout.lambda) pull(0, layout.w_lambda(), material.lambda_ela, material.lambda_rate());
-  if (layout.mu) pull(2, layout.w_mu(), material.mu_ela, material.mu_rate());
+  pull_parallel(0, model_.material.elastic.lambda, model_.material.viscous.lambda);
+  pull_parallel(1, model_.material.elastic.mu, model_.material.viscous.mu);
   system_.subtract_force(pull_, right_);
   right_ *= s;
-  if (driven && material.mass == Mass::consistent) {
+  if (driven && model_.material.mass == Mass::consistent) {
     model_.multiply_mass(increment_.data(), product_.data());
     right_ -= product_;
   }
   counters_.shifted_solves += system_.solve(right_, increment_, target_);
   if (!system_.general().empty()) ++counters_.constraint_solves;
 
-  const auto follow = [&](std::size_t offset, double ela, double decay) {
-    const double scale = s / (1.0 + s * decay);
-    VectorMap(out.data() + offset, part) =
-        scale * (ela * (v + increment_) - decay * ConstVectorMap(x.data() + offset, part));
-  };
   VectorMap(out.data() + layout.u(), part) = s * (v + increment_);
   VectorMap(out.data() + layout.v(), part) = increment_;
-  if (layout.lambda) follow(layout.w_lambda(), material.lambda_ela, material.lambda_rate());
-  if (layout.mu) follow(layout.w_mu(), material.mu_ela, material.mu_rate());
+  for (const BranchPart& branch : layout.branches) {
+    const double scale = s / (1.0 + s * branch.rate);
+    VectorMap(out.data() + branch.offset, part) =
+        scale *
+        (branch.ela * (v + increment_) - branch.rate * ConstVectorMap(x.data() + branch.offset, part));
+  }
 }
 
 }  // namespace rheo

@@ -1,6 +1,7 @@
 // The assembled body with the solves that an implicit integrator needs.
 //
-//   (1 - s A) d = s (A x + g): with p = (w + s ela v) / (1 + s rate) for either branch,
+//   (1 - s A) d = s (A x + g): with, for either modulus,
+//   p = sum over the branches of (w + s ela v) / (1 + s rate) + elastic (u + s v) + viscous v
 //   S d_v = s (f - J_lambda p_lambda - J_mu p_mu)          S: shifted_system.hpp
 //   d_u = s (v + d_v),   d_w = s (ela (v + d_v) - rate w) / (1 + s rate)
 //   d_v = s b'' where a degree of freedom is eliminated, its part of p and of M d_v on the right side

@@ -126,8 +126,10 @@ ShiftedSystem::Found ShiftedSystem::prepare(double s,
 void ShiftedSystem::fill_values(const Factor& factor) {
   const Material& material = model_.material;
   const double s = factor.s;
-  const double lambda = s * s * material.lambda_ela / (1.0 + s * material.lambda_rate());
-  const double mu = s * s * material.mu_ela / (1.0 + s * material.mu_rate());
+  double lambda = s * s * material.elastic.lambda + s * material.viscous.lambda;
+  double mu = s * s * material.elastic.mu + s * material.viscous.mu;
+  for (const BranchPart& branch : model_.layout.branches)
+    (branch.modulus == Modulus::lambda ? lambda : mu) += s * s * branch.ela / (1.0 + s * branch.rate);
   const bool consistent = material.mass == Mass::consistent;
   const BlockPattern& pattern = order_->pattern();
   for (int node = 0; node < pattern.nodes(); ++node) {

@@ -1,7 +1,8 @@
 // The equations that one implicit stage of length s leaves for the velocities, factored once for each s and
 // set of constraints.
 //
-//   S = M + s^2 (lambda_ela / (1 + s lambda_rate) J_lambda + mu_ela / (1 + s mu_rate) J_mu)
+//   S = M + lambda(s) J_lambda + mu(s) J_mu
+//   lambda(s) = sum over the branches of s^2 lambda_ela / (1 + s lambda_rate) + s^2 elastic + s viscous
 //   S_ff d_f = r_f where the increments d of driven degrees of freedom are given
 //   S d - A m = r, A^T d = target for general constraints: (A_f^T S_ff^-1 A_f) m = target - A^T d, by a dense
 //   factor

@@ -1,5 +1,6 @@
 #include "rheo/simulation.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -41,6 +42,10 @@ struct Simulation::Impl {
         integrator(make_integrator(scene.time.integrator, body->size(),
                                    exponential_settings(scene, spectrum, schedule.interval_count()))),
         zeros(model.layout.part, 0.0),
+        w_lambda(Vector::Zero(static_cast<Eigen::Index>(model.layout.part))),
+        w_mu(w_lambda),
+        pull_lambda(w_lambda),
+        pull_mu(w_lambda),
         stepping(scene, model, schedule, *body, *integrator, limits(),
                  options.energies ? 1 : unasked_stride) {}
 
@@ -48,6 +53,18 @@ struct Simulation::Impl {
   Readings& now() { return stepping.readings(); }
   std::span<const double> part_of_state(std::size_t offset) {
     return std::span<const double>(now().state()).subspan(offset, model.layout.part);
+  }
+
+  std::span<const double> sum(Modulus modulus, PartSum parts, Vector& memory) {
+    const ConstVectorMap result = sum_of_parts(model, modulus, parts, now().state(), memory);
+    return {result.data(), static_cast<std::size_t>(result.size())};
+  }
+  std::span<const double> branch(Modulus modulus, std::size_t number) {
+    assert(number < model.material.branch_count());
+    for (const BranchPart& part : model.layout.branches) {
+      if (part.modulus == modulus && part.number == number) return part_of_state(part.offset);
+    }
+    return zeros;
   }
 
   std::optional<AccuracyPlan> plan;
@@ -59,6 +76,7 @@ struct Simulation::Impl {
   std::unique_ptr<Body> body;
   std::unique_ptr<Integrator> integrator;
   std::vector<double> zeros;
+  Vector w_lambda, w_mu, pull_lambda, pull_mu;  // 2n each, where they are sums
   Stepping stepping;
 };
 
@@ -123,12 +141,22 @@ std::span<const double> Simulation::v() const {
   return impl_->part_of_state(impl_->model.layout.v());
 }
 std::span<const double> Simulation::w_lambda() const {
-  if (!impl_->model.layout.lambda) return impl_->zeros;
-  return impl_->part_of_state(impl_->model.layout.w_lambda());
+  return impl_->sum(Modulus::lambda, PartSum::residual, impl_->w_lambda);
 }
 std::span<const double> Simulation::w_mu() const {
-  if (!impl_->model.layout.mu) return impl_->zeros;
-  return impl_->part_of_state(impl_->model.layout.w_mu());
+  return impl_->sum(Modulus::mu, PartSum::residual, impl_->w_mu);
+}
+std::span<const double> Simulation::w_lambda(std::size_t branch) const {
+  return impl_->branch(Modulus::lambda, branch);
+}
+std::span<const double> Simulation::w_mu(std::size_t branch) const {
+  return impl_->branch(Modulus::mu, branch);
+}
+std::span<const double> Simulation::pull_lambda() const {
+  return impl_->sum(Modulus::lambda, PartSum::pull, impl_->pull_lambda);
+}
+std::span<const double> Simulation::pull_mu() const {
+  return impl_->sum(Modulus::mu, PartSum::pull, impl_->pull_mu);
 }
 
 Energies Simulation::energies() const {

@@ -83,15 +83,192 @@ double stable_step_of(std::complex<double> s, IntegratorKind integrator) {
   return radius / size;
 }
 
-bool stable_step_is_bound(const Spectrum& spectrum, IntegratorKind integrator) {
-  return integrator == IntegratorKind::euler && spectrum.eigenvalues.empty() && spectrum.lambda_on &&
-         spectrum.mu_on && spectrum.lambda_rate != spectrum.mu_rate;
+double Spectrum::largest_rate() const {
+  double rate = viscous_max;
+  for (const Relaxation& each : relaxations) rate = std::max(rate, each.rate);
+  return std::max({rate, lambda_on ? lambda_rate : 0.0, mu_on ? mu_rate : 0.0});
 }
+
+double Spectrum::slowest_rate() const {
+  if (!relaxations.empty()) return relaxations.front().rate;
+  return std::min(lambda_on ? lambda_rate : infinite, mu_on ? mu_rate : infinite);
+}
+
+bool stable_step_is_bound(const Spectrum& spectrum, IntegratorKind integrator) {
+  if (has_no_limit(integrator) || !spectrum.eigenvalues.empty()) return false;
+  if (spectrum.viscous_max > 0.0) return true;
+  if (integrator != IntegratorKind::euler) return false;
+  return spectrum.relaxations.size() > 1 ||
+         (spectrum.lambda_on && spectrum.mu_on && spectrum.lambda_rate != spectrum.mu_rate);
+}
+
+namespace {
+
+// The modes of materials in parallel, by the quotients a and b that they may have (stability.hpp).
+class ParallelModes {
+ public:
+  ParallelModes(const Spectrum& spectrum, IntegratorKind integrator)
+      : spectrum_(spectrum),
+        integrator_(integrator),
+        parts_(static_cast<Eigen::Index>(spectrum.relaxations.size())),
+        mode_(1 + parts_, 1 + parts_),
+        solver_(1 + parts_),
+        spacing_(parts_ > few_rates ? 1.0 / 3 : 1.0 / 8) {
+    for (const Relaxation& each : spectrum.relaxations) {
+      springs_.lambda += each.moduli.lambda;
+      springs_.mu += each.moduli.mu;
+      fastest_rate_ = std::max(fastest_rate_, each.rate);
+    }
+  }
+
+  // The largest step that is stable for all of them.
+  double limit() {
+    for (const Relaxation& each : spectrum_.relaxations)
+      if (each.rate > 0.0) step_ = std::min(step_, stable_step_of(-each.rate, integrator_));
+    const double fastest = std::max({fastest_rate_, spectrum_.omega_max, spectrum_.viscous_max});
+    const std::vector<double> ratios = sample_ratios();
+    // From the largest down. Below a small part of the fastest rate no root can be the one that limits RK4;
+    // Euler's limit 2 |Re s| / |s|^2 only grows downwards.
+    for (std::size_t i = 0; i < ratios.size(); ++i) {
+      for (int k = 0; k < most_magnitudes; ++k) {
+        const Mode mode = mode_at(ratios[i], k * spacing_);
+        if (!(mode.b > 0.0)) break;
+        if (k > 0 && std::max(mode.omega, mode.damping) < 0.02 * fastest) break;
+        if (can_not_limit(mode)) break;
+        if (!include(mode)) continue;
+        best_ratio_ = ratios[i];
+        best_decline_ = k * spacing_;
+        span_ = ratios[std::min(i + 1, ratios.size() - 1)] - ratios[i > 0 ? i - 1 : 0];
+      }
+    }
+    refine();
+    return step_;
+  }
+
+ private:
+  static constexpr int most_magnitudes = 128;
+  static constexpr Eigen::Index few_rates =
+      6;  // a mode's roots cost the cube of the rates: fewer samples beyond
+  struct Mode {
+    double ratio = 0.0;  // a / b
+    double b = 0.0;
+    double omega = 0.0, damping = 0.0;
+  };
+
+  // Even shares of lambda in the springs' quotient, and in the viscous part's.
+  std::vector<double> sample_ratios() const {
+    const int shares = parts_ > few_rates ? 6 : 16;
+    std::vector<double> ratios{0.0, 1.0};
+    for (const Moduli& moduli : {springs_, spectrum_.viscous}) {
+      if (moduli.lambda == 0.0 || moduli.mu == 0.0) continue;
+      const double highest = moduli.lambda / (moduli.lambda + moduli.mu);
+      for (int i = 1; i < shares; ++i) {
+        const double share = highest * i / shares;
+        ratios.push_back(share / moduli.lambda / ((1.0 - share) / moduli.mu));
+      }
+    }
+    std::sort(ratios.begin(), ratios.end());
+    return ratios;
+  }
+
+  // b: 2^-decline of the largest that there may be.
+  Mode mode_at(double ratio, double decline) const {
+    const double spring = ratio * springs_.lambda + springs_.mu;
+    const double dashpot = ratio * spectrum_.viscous.lambda + spectrum_.viscous.mu;
+    double largest = infinite;
+    if (spring > 0.0) largest = std::min(largest, spectrum_.omega_max * spectrum_.omega_max / spring);
+    if (dashpot > 0.0) largest = std::min(largest, spectrum_.viscous_max / dashpot);
+    if (!std::isfinite(largest)) return {};
+    const double b = largest * std::exp2(-decline);
+    return {ratio, b, std::sqrt(b * spring), b * dashpot};
+  }
+
+  bool matters(std::complex<double> s) const {
+    return integrator_ != IntegratorKind::rk4 || !(std::abs(s) * step_ < rk4_inner_radius);
+  }
+  // No root is larger than the numerical range.
+  bool can_not_limit(const Mode& mode) const {
+    return !matters(std::max(fastest_rate_, mode.damping) + mode.omega);
+  }
+
+  // Whether the mode's roots want a shorter step.
+  bool include(const Mode& mode) {
+    const double before = step_;
+    const auto take = [&](std::complex<double> s) {
+      if (matters(s)) step_ = std::min(step_, stable_step_of(s, integrator_));
+    };
+    const double size = std::max(fastest_rate_, mode.damping);
+    if (size < 1e-8 * mode.omega) {
+      // To first order: a general solver would lose the real part.
+      double decay = mode.damping;
+      for (const Relaxation& each : spectrum_.relaxations)
+        decay += mode.b * stiffness(each, mode.ratio) * each.rate / (mode.omega * mode.omega);
+      take({-0.5 * decay, mode.omega});
+      return step_ < before;
+    }
+    mode_.setZero();  // on v and sqrt(stiffness) q of each rate: nearly normal
+    mode_(0, 0) = -mode.damping;
+    for (Eigen::Index i = 0; i < parts_; ++i) {
+      const Relaxation& each = spectrum_.relaxations[static_cast<std::size_t>(i)];
+      const double coupling = std::sqrt(mode.b * stiffness(each, mode.ratio));
+      mode_(0, 1 + i) = -coupling;
+      mode_(1 + i, 0) = coupling;
+      mode_(1 + i, 1 + i) = -each.rate;
+    }
+    solver_.compute(mode_, false);
+    // A real part that is rounding is none: the true one is never positive.
+    for (const std::complex<double> s : solver_.eigenvalues()) {
+      if (std::abs(s) > 1e-13 * (size + mode.omega)) take({std::min(s.real(), 0.0), s.imag()});
+    }
+    return step_ < before;
+  }
+
+  static double stiffness(const Relaxation& each, double ratio) {
+    return ratio * each.moduli.lambda + each.moduli.mu;
+  }
+
+  // Between the samples: downhill from the best of them, in steps that halve.
+  void refine() {
+    if (best_ratio_ < 0.0) return;
+    double decline_step = 0.5 * spacing_, ratio_step = 0.25 * span_;
+    for (int halvings = 0; halvings < 10;) {
+      bool better = false;
+      for (const auto& [dr, dd] :
+           {std::pair{ratio_step, 0.0}, {-ratio_step, 0.0}, {0.0, decline_step}, {0.0, -decline_step}}) {
+        const double ratio = std::clamp(best_ratio_ + dr, 0.0, 1.0);
+        const double decline = std::max(best_decline_ + dd, 0.0);
+        const Mode mode = mode_at(ratio, decline);
+        if (!(mode.b > 0.0) || !include(mode)) continue;
+        best_ratio_ = ratio;
+        best_decline_ = decline;
+        better = true;
+      }
+      if (better) continue;
+      ++halvings;
+      decline_step *= 0.5;
+      ratio_step *= 0.5;
+    }
+  }
+
+  const Spectrum& spectrum_;
+  IntegratorKind integrator_;
+  Eigen::Index parts_;
+  Eigen::MatrixXd mode_;
+  Eigen::EigenSolver<Eigen::MatrixXd> solver_;
+  Moduli springs_;
+  double spacing_;  // of magnitudes, in octaves
+  double fastest_rate_ = 0.0;
+  double step_ = infinite;
+  double best_ratio_ = -1.0, best_decline_ = 0.0, span_ = 0.0;  // of the sample that limits; -1: none
+};
+
+}  // namespace
 
 double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
   if (has_no_limit(integrator)) return infinite;
   double step = infinite;
   const bool rk4 = integrator == IntegratorKind::rk4;
+  const bool parallel = !spectrum.relaxations.empty() || spectrum.viscous_max > 0.0;
   const auto include = [&](std::complex<double> s) {
     if (rk4 && std::abs(s) * step < rk4_inner_radius) return;  // stable as it is
     step = std::min(step, stable_step_of(s, integrator));
@@ -99,10 +276,14 @@ double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
 
   const double p = spectrum.lambda_on ? spectrum.lambda_rate : 0.0;
   const double q = spectrum.mu_on ? spectrum.mu_rate : 0.0;
-  // Deformations that leave a residual force without force decay by its own rate alone.
-  if (p > 0.0) include(-p);
-  if (q > 0.0) include(-q);
-  if (spectrum.omega_max > 0.0) {
+  if (parallel) {
+    step = ParallelModes(spectrum, integrator).limit();
+  } else {
+    // Deformations that leave a residual force without force decay by its own rate alone.
+    if (p > 0.0) include(-p);
+    if (q > 0.0) include(-q);
+  }
+  if (!parallel && spectrum.omega_max > 0.0) {
     const double fastest = std::max({p, q, spectrum.omega_max});
     const double damping = std::max(p, q);
     // Shares of lambda from none to the largest possible; magnitudes from the largest down. Below a small

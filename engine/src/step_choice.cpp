@@ -72,9 +72,7 @@ ExponentialSettings exponential_settings(const Scene& scene, const Spectrum& spe
   const double rate =
       settings.step > 0.0 ? std::max(settings.frame_rate, 1.0 / settings.step) : settings.frame_rate;
   const double steps = std::ceil(settings.duration * rate) + static_cast<double>(intervals);
-  return {spectrum.omega_max,
-          std::max(spectrum.lambda_on ? spectrum.lambda_rate : 0.0, spectrum.mu_on ? spectrum.mu_rate : 0.0),
-          settings.tolerance / steps};
+  return {spectrum.omega_max, spectrum.largest_rate(), settings.tolerance / steps};
 }
 
 }  // namespace rheo

@@ -54,8 +54,9 @@ bool Stepping::books_work() const {
 // Likewise: nothing, or unknown.
 bool Stepping::books_dissipated() const {
   return !takes_long_steps(scene_.time.integrator) ||
-         ((!model_.layout.lambda || model_.material.lambda_rate() == 0.0) &&
-          (!model_.layout.mu || model_.material.mu_rate() == 0.0));
+         (std::all_of(model_.layout.branches.begin(), model_.layout.branches.end(),
+                      [](const BranchPart& branch) { return branch.rate == 0.0; }) &&
+          model_.material.viscous.lambda == 0.0 && model_.material.viscous.mu == 0.0);
 }
 
 void Stepping::enter(std::size_t i) {
@@ -120,12 +121,10 @@ bool Stepping::at_rest() {
 // (Residual forces of a rigid motion hold no energy and may still be large.)
 void Stepping::pass_at_rest(double end) {
   const std::span<double> y = readings_.state();
-  const auto decay = [&](std::size_t offset, double rate) {
-    VectorMap(y.data() + offset, static_cast<Eigen::Index>(model_.layout.part)) *=
-        std::exp(-rate * (end - time_));
-  };
-  if (model_.layout.lambda) decay(model_.layout.w_lambda(), model_.material.lambda_rate());
-  if (model_.layout.mu) decay(model_.layout.w_mu(), model_.material.mu_rate());
+  for (const BranchPart& branch : model_.layout.branches) {
+    VectorMap(y.data() + branch.offset, static_cast<Eigen::Index>(model_.layout.part)) *=
+        std::exp(-branch.rate * (end - time_));
+  }
   body_.load(y);
   body_.counters().steps_at_rest += steps_to(end);
   time_ = end;

@@ -5,6 +5,7 @@
 //                              baseline
 //   step/<kernel>/<triangles>  the engine's integrator on its operator, without energies
 //   step2/edge/<triangles>     the same with two threads
+//   branches/<kernel>/<triangles>/<n>  n Maxwell branches of either modulus in parallel, on one thread
 //   start/<triangles>          a simulation made ready: the kernel's numbers, the stable step; no file is
 //   read
 //
@@ -24,6 +25,7 @@
 
 #include "assembled_body.hpp"
 #include "bench/step_case.hpp"
+#include "body_choice.hpp"
 #include "kernels/edge_body.hpp"
 #include "kernels/element_body.hpp"
 
@@ -209,5 +211,37 @@ BENCHMARK(step_element_best<2>)->Name("step2/element")->Apply(sizes);
 BENCHMARK(step_element<rheo::SimdLevel::baseline>)->Name("step/element_baseline")->Apply(sizes);
 BENCHMARK(step_element<rheo::SimdLevel::avx2>)->Name("step/element_avx2")->Apply(sizes);
 BENCHMARK(step_element<rheo::SimdLevel::avx512>)->Name("step/element_avx512")->Apply(sizes);
+
+template <rheo::Assembly assembly>
+void step_branches(benchmark::State& state) {
+  const Case& c = case_of(static_cast<int>(state.range(0)));
+  rheo::Scene scene = c.scene;
+  for (int k = 1; k < state.range(1); ++k)
+    scene.material.more_branches.push_back({1.0, 1.0, 1.0 / (k + 2), 0.7 / (k + 2)});
+  const rheo::Model model(scene.mesh, scene.material, assembly);
+  const auto body = rheo::make_body(scene, model, 1);
+  body->enter(c.interval, c.base);
+  std::vector<double> y(model.layout.size());
+  std::copy(c.y.begin(), c.y.end(), y.begin());
+  body->load(y);
+  const auto integrator = rheo::make_integrator(rheo::IntegratorKind::rk4, body->size());
+  for (auto _ : state) {
+    integrator->step(*body, 0.0, c.step, body->state(), {});
+    body->impose_prescribed(0.0);
+  }
+  state.counters["ns/tri"] =
+      benchmark::Counter(1e-9 * c.scene.mesh.triangle_count(),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void branch_sizes(benchmark::internal::Benchmark* b) {
+  for (int triangles : {1000, 10000, 100000}) {
+    for (int branches = 1; branches <= 8; ++branches) b->Args({triangles, branches});
+  }
+  b->UseRealTime();
+}
+
+BENCHMARK(step_branches<rheo::Assembly::edges>)->Name("branches/edge")->Apply(branch_sizes);
+BENCHMARK(step_branches<rheo::Assembly::elements>)->Name("branches/element")->Apply(branch_sizes);
 
 }  // namespace

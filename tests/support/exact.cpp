@@ -122,19 +122,29 @@ MatrixXd full_operator(const DenseMatrices& m, const Material& material, const M
   kkt.topLeftCorner(d, d) = m.mass;
   kkt.topRightCorner(d, c) = -constraints;
   kkt.bottomLeftCorner(c, d) = -constraints.transpose();
-  MatrixXd right = MatrixXd::Zero(d + c, 4 * d);
-  right.block(0, 2 * d, d, d) = -m.j_lambda;
-  right.block(0, 3 * d, d, d) = -m.j_mu;
+  const Eigen::Index branches = static_cast<Eigen::Index>(material.branch_count());
+  const Eigen::Index size = (2 + 2 * branches) * d;
+  MatrixXd right = MatrixXd::Zero(d + c, size);
+  for (Eigen::Index k = 0; k < branches; ++k) {
+    right.block(0, (2 + 2 * k) * d, d, d) = -m.j_lambda;
+    right.block(0, (3 + 2 * k) * d, d, d) = -m.j_mu;
+  }
+  right.block(0, 0, d, d) = -material.elastic.lambda * m.j_lambda - material.elastic.mu * m.j_mu;
+  right.block(0, d, d, d) = -material.viscous.lambda * m.j_lambda - material.viscous.mu * m.j_mu;
   right.block(d, 0, c, d) = omega * omega * constraints.transpose();
   right.block(d, d, c, d) = 2 * omega * constraints.transpose();
   const MatrixXd solved = kkt.fullPivLu().solve(right);
-  MatrixXd a = MatrixXd::Zero(4 * d, 4 * d);
+  MatrixXd a = MatrixXd::Zero(size, size);
   a.block(0, d, d, d).setIdentity();
-  a.block(d, 0, d, 4 * d) = solved.topRows(d);
-  a.block(2 * d, d, d, d) = material.lambda_ela * MatrixXd::Identity(d, d);
-  a.block(2 * d, 2 * d, d, d) = -material.lambda_rate() * MatrixXd::Identity(d, d);
-  a.block(3 * d, d, d, d) = material.mu_ela * MatrixXd::Identity(d, d);
-  a.block(3 * d, 3 * d, d, d) = -material.mu_rate() * MatrixXd::Identity(d, d);
+  a.block(d, 0, d, size) = solved.topRows(d);
+  for (Eigen::Index k = 0; k < branches; ++k) {
+    const MaxwellBranch b = material.branch(static_cast<std::size_t>(k));
+    const Eigen::Index l = (2 + 2 * k) * d, n = (3 + 2 * k) * d;
+    a.block(l, d, d, d) = b.lambda_ela * MatrixXd::Identity(d, d);
+    a.block(l, l, d, d) = -b.lambda_rate() * MatrixXd::Identity(d, d);
+    a.block(n, d, d, d) = b.mu_ela * MatrixXd::Identity(d, d);
+    a.block(n, n, d, d) = -b.mu_rate() * MatrixXd::Identity(d, d);
+  }
   return a;
 }
 
@@ -161,7 +171,10 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
   std::sort(breaks.begin(), breaks.end());
   breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
 
-  VectorXd y = VectorXd::Zero(4 * d);
+  const Material& material = s.material;
+  const Eigen::Index branches = static_cast<Eigen::Index>(material.branch_count());
+  const Eigen::Index size = (2 + 2 * branches) * d;
+  VectorXd y = VectorXd::Zero(size);
   VectorXd base = VectorXd::Zero(d);  // u at the beginning of the hold minus the key then
   std::vector<const void*> holder(d, nullptr);
   std::vector<ExactState> result;
@@ -233,7 +246,13 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
     }
     for (double t : times) {
       if (t == t0)
-        result.push_back({t0, y.segment(0, d), y.segment(d, d), y.segment(2 * d, d), y.segment(3 * d, d)});
+        result.push_back({t0, y.segment(0, d), y.segment(d, d), material.viscous.lambda * y.segment(d, d),
+                          material.viscous.mu * y.segment(d, d)});
+      if (t != t0) continue;
+      for (Eigen::Index k = 0; k < branches; ++k) {
+        result.back().w_lambda += y.segment((2 + 2 * k) * d, d);
+        result.back().w_mu += y.segment((3 + 2 * k) * d, d);
+      }
     }
     if (last) return result;
 
@@ -241,9 +260,9 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
     // numbers level.
     const double length = t1 - t0;
     constexpr Eigen::Index extra = 6;
-    MatrixXd full = MatrixXd::Zero(4 * d + extra, 4 * d + extra);
-    full.topLeftCorner(4 * d, 4 * d) = full_operator(matrices_, s.material, a, s.time.baumgarte);
-    for (Eigen::Index k = 1; k < extra; ++k) full(4 * d + k, 4 * d + k - 1) = 1.0 / length;
+    MatrixXd full = MatrixXd::Zero(size + extra, size + extra);
+    full.topLeftCorner(size, size) = full_operator(matrices_, s.material, a, s.time.baumgarte);
+    for (Eigen::Index k = 1; k < extra; ++k) full(size + k, size + k - 1) = 1.0 / length;
     MatrixXd kkt = MatrixXd::Zero(d + count, d + count);
     kkt.topLeftCorner(d, d) = matrices_.mass;
     const double weight = matrices_.mass.maxCoeff();  // as in full_operator
@@ -282,24 +301,27 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
         right[d + j] =
             -weight * (derivative(k + 2) + 2 * omega * derivative(k + 1) + omega * omega * derivative(k));
       }
-      full.block(d, 4 * d + k, d, 1) = std::pow(length, k) * lu.solve(right).head(d);
+      full.block(d, size + k, d, 1) = std::pow(length, k) * lu.solve(right).head(d);
     }
-    VectorXd z = VectorXd::Zero(4 * d + extra);
-    z.head(4 * d) = y;
-    z[4 * d] = 1.0;
+    VectorXd z = VectorXd::Zero(size + extra);
+    z.head(size) = y;
+    z[size] = 1.0;
     // Squaring loses digits where entries of very different sizes meet: numbers of one size instead, v over a
     // frequency, w over a modulus.
-    const double modulus = std::max(s.material.lambda_ela, s.material.mu_ela);
-    const double frequency =
-        std::max(1.0 / length, std::sqrt(modulus * full.block(d, 2 * d, d, 2 * d).cwiseAbs().maxCoeff()));
-    VectorXd unit = VectorXd::Ones(4 * d + extra);
+    double modulus = std::max(material.elastic.lambda, material.elastic.mu);
+    for (std::size_t k = 0; k < material.branch_count(); ++k)
+      modulus = std::max({modulus, material.branch(k).lambda_ela, material.branch(k).mu_ela});
+    if (modulus == 0.0) modulus = 1.0;
+    const double frequency = std::max(
+        1.0 / length, std::sqrt(modulus * full.block(d, 2 * d, d, size - 2 * d).cwiseAbs().maxCoeff()));
+    VectorXd unit = VectorXd::Ones(size + extra);
     unit.segment(d, d).setConstant(frequency);
-    unit.segment(2 * d, 2 * d).setConstant(modulus);
-    const double forcing = full.block(d, 4 * d, d, extra).cwiseAbs().maxCoeff() / (frequency * frequency);
-    if (forcing > 0.0) unit.head(4 * d) *= forcing;
+    unit.segment(2 * d, size - 2 * d).setConstant(modulus);
+    const double forcing = full.block(d, size, d, extra).cwiseAbs().maxCoeff() / (frequency * frequency);
+    if (forcing > 0.0) unit.head(size) *= forcing;
     full = unit.cwiseInverse().asDiagonal() * full * unit.asDiagonal();
-    y = unit.head(4 * d).asDiagonal() *
-        ((length * full).exp().topRows(4 * d) * unit.cwiseInverse().cwiseProduct(z)).eval();
+    y = unit.head(size).asDiagonal() *
+        ((length * full).exp().topRows(size) * unit.cwiseInverse().cwiseProduct(z)).eval();
   }
 }
 

@@ -15,7 +15,7 @@ namespace rheo::test {
 
 struct ExactState {
   double t = 0.0;
-  Eigen::VectorXd u, v, w_lambda, w_mu;  // 2n each
+  Eigen::VectorXd u, v, w_lambda, w_mu;  // 2n each; w: of all branches and the viscous part
 };
 
 // Dense J_lambda, J_mu, M (2n x 2n) of a mesh and material.
@@ -24,8 +24,8 @@ struct DenseMatrices {
 };
 DenseMatrices dense_matrices(const Mesh& mesh, const Material& material);
 
-// The full operator on (u, v, w_lambda, w_mu), 8n x 8n, with A^T v' = -2 omega A^T v - omega^2 A^T u for the
-// columns of `constraints` (2n x m).
+// The full operator on (u, v, w_lambda, w_mu of each branch), (4 + 4 branches) n square, with
+// A^T v' = -2 omega A^T v - omega^2 A^T u for the columns of `constraints` (2n x m).
 Eigen::MatrixXd full_operator(const DenseMatrices& matrices, const Material& material,
                               const Eigen::MatrixXd& constraints, double omega);
 

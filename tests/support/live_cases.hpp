@@ -14,6 +14,7 @@ struct LiveCase {
   Kernel kernel;
   int threads;
   bool general_constraint;
+  bool parallel = false;  // two branches, an elastic and a viscous part
 };
 
 inline std::ostream& operator<<(std::ostream& out, const LiveCase& each) {
@@ -27,12 +28,21 @@ inline const std::vector<LiveCase> live_cases{
     {"element_on_two_threads", Mass::lumped, Kernel::element, 2, false},
     {"csr", Mass::lumped, Kernel::csr, 1, false},
     {"csr_consistent", Mass::consistent, Kernel::csr, 1, false},
-    {"csr_constraint", Mass::lumped, Kernel::csr, 1, true}};
+    {"csr_constraint", Mass::lumped, Kernel::csr, 1, true},
+    {"edge_of_many_parts", Mass::lumped, Kernel::edge, 1, false, true},
+    {"element_of_many_parts", Mass::lumped, Kernel::element, 1, false, true},
+    {"csr_of_many_parts", Mass::consistent, Kernel::csr, 1, false, true}};
 
 // At haptic rate; large enough for the threads to have work.
 inline Live live_of(const LiveCase& each) {
   Scene scene = each.threads > 1 ? live_block(each.mass, 61, 41) : live_block(each.mass);
   scene.time.step = 0.0;
+  if (each.parallel) {
+    Material& m = scene.material;
+    m.more_branches.push_back({m.lambda_ela, m.mu_ela, 0.1 * m.lambda_vis, 0.2 * m.mu_vis});
+    m.elastic = {0.5 * m.lambda_ela, 0.5 * m.mu_ela};
+    m.viscous = {1e-3 * m.lambda_ela, 1e-3 * m.mu_ela};
+  }
   if (each.general_constraint) {
     scene.constraints.push_back({{{30, Axis::x, 1.0}, {31, Axis::x, -1.0}}, 0.0, "tie"});
   }

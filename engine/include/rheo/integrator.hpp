@@ -30,7 +30,8 @@ enum class Result { intermediate, step };
 // A stretch of the state that holds one kind of numbers, in one unit, for errors relative to their size.
 struct StatePart {
   std::size_t size = 0;
-  double share = 1.0;  // where kinds are mixed: the smallest one's size over the whole part's
+  double share = 1.0;  // where kinds are mixed: the smallest one's size over the whole part's; 0: follows
+                       // from the other parts, and needs no bound of its own
 };
 
 // y' = A y + g(t), applied without forming A.
@@ -56,6 +57,10 @@ class LinearOperator {
   virtual void chain(std::span<const Sweep> sweeps) {
     for (const Sweep& s : sweeps) fma(s.h, s.x, s.base, s.forcing, s.out, s.result);
   }
+
+  // Makes those numbers of y anew that follow from its others (StatePart::share 0), as a sweep does with
+  // those that it writes: for sums of states, which would carry their rounding on.
+  virtual void renew(std::span<double> /*y*/) {}
 
   // For implicit integrators, where solves_shifted(): d with (1 - s A) d = s (A x + forcing); out is not x.
   // prepare_shifted(s) comes first, the only one that may allocate; false where s cannot be solved for to

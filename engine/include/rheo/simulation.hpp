@@ -1,10 +1,11 @@
 // One scene in motion: fixed steps between events and outputs, energies, reactions, divergence.
 //
 //   u'        = v
-//   M v'      = f - J_lambda w_lambda - J_mu w_mu + A L
+//   M v'      = f - J_lambda p_lambda - J_mu p_mu + A L
 //   A^T v'    = b'' - 2 omega (A^T v - b') - omega^2 (A^T u - b)
-//   w_lambda' = -(lambda_ela / lambda_vis) w_lambda + lambda_ela v
+//   w_lambda' = -(lambda_ela / lambda_vis) w_lambda + lambda_ela v        for each branch
 //   w_mu'     = -(mu_ela / mu_vis) w_mu + mu_ela v
+//   p_lambda  = sum over the branches of w_lambda + elastic_lambda u + viscous_lambda v, p_mu likewise
 //
 // Source   Hirai and Tomokuni, eq. (3), (4)
 // Units    u [m], v [m/s], w [Pa m], forces [N], energies [J], time [s]
@@ -37,11 +38,13 @@ struct HeldDof;
 
 struct Energies {
   double kinetic = 0.0;     // 1/2 v^T M v
-  double stored = 0.0;      // 1/2 w_l^T J_l w_l / lambda_ela + 1/2 w_m^T J_m w_m / mu_ela
+  double stored = 0.0;      // 1/2 w_l^T J_l w_l / lambda_ela + 1/2 w_m^T J_m w_m / mu_ela, of each branch,
+                            // + 1/2 u^T (elastic_l J_l + elastic_m J_m) u
   double dissipated = 0.0;  // since the start, by a quadrature of the integrator's order
   double work = 0.0;        // of loads, moving constraints and impulses, since the start, likewise
   // Not known (NaN) with the exponential and implicit integrators, whose steps are too long for a quadrature:
-  // dissipated, unless nothing relaxes; work, where nodes are moved or a traction has several keys.
+  // dissipated, unless nothing relaxes or is viscous; work, where nodes are moved or a traction has several
+  // keys.
 };
 
 struct Divergence {
@@ -60,8 +63,9 @@ struct ProbeReading {
 struct Counters {
   std::int64_t steps = 0;
   std::int64_t force_evaluations = 0;  // products with J_lambda and J_mu together count once
-  std::int64_t branch_updates = 0;     // Maxwell branches advanced: 2 an evaluation; 1 where the two relax at
-                                       // one rate or one is off, 0 where nothing relaxes (edge kernel)
+  std::int64_t branch_updates = 0;  // residual forces advanced, lambda and mu of each branch: of one branch
+                                    // 2 an evaluation; 1 where the two relax at
+                                    // one rate or one is off, 0 where nothing relaxes (edge kernel)
   std::int64_t displacement_updates = 0;  // times that u was advanced: once a step where no force hangs on it
   std::int64_t mass_solves = 0;           // sparse solves with the consistent mass
   std::int64_t constraint_solves = 0;     // solves for Lagrange multipliers
@@ -130,8 +134,16 @@ class Simulation {
 
   std::span<const double> u() const;
   std::span<const double> v() const;
-  std::span<const double> w_lambda() const;  // zeros where lambda_ela = 0
+  // All residual forces but the elastic part's: sum over the branches of w + viscous v. Valid until the next
+  // call or step.
+  std::span<const double> w_lambda() const;
   std::span<const double> w_mu() const;
+  // Of one branch (Material::branch); zeros where it is off.
+  std::span<const double> w_lambda(std::size_t branch) const;
+  std::span<const double> w_mu(std::size_t branch) const;
+  // p, with the elastic part: what the stress comes from (deformation.hpp). Without one the same as w.
+  std::span<const double> pull_lambda() const;
+  std::span<const double> pull_mu() const;
 
   Energies energies() const;
   // Force of the constraints on the nodes, now (just after an event at this time).

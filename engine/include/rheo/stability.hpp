@@ -6,12 +6,19 @@
 //   s + A / (s + r_lambda) + B / (s + r_mu) = 0
 //   A + B <= omega_max^2,   A <= (A + B) lambda_ela / (lambda_ela + mu_ela)
 //
+// With branches k (the elastic part is one of rate 0) and a viscous part in parallel, a and b the quotients
+// of M^-1 J_lambda and M^-1 J_mu,
+//
+//   s + sum over k of (a lambda_k + b mu_k) / (s + r_k) + a viscous_lambda + b viscous_mu = 0,   0 <= a <= b
+//   a sum lambda_k + b sum mu_k <= omega_max^2,   a viscous_lambda + b viscous_mu <= viscous_max
+//
 // so the step that keeps all such s inside the integrator's stability region is stable for the scene;
 // relaxation rates and Baumgarte's double pole -omega belong to the spectrum too.
 //
 // Source   design: Lanczos in the inner product of M for omega_max^2 = largest eigenvalue of
-//          M^-1 (lambda_ela J_lambda + mu_ela J_mu) on what the constraints leave free, its residual added,
-//          capped by the largest element eigenvalue (Irons and Treharne, 1971)
+//          M^-1 (lambda_ela J_lambda + mu_ela J_mu) (of all springs, viscous_max likewise) on what the
+//          constraints leave free, its residual added, capped by the largest element eigenvalue (Irons and
+//          Treharne, 1971)
 // Units    rates and omega [1/s], steps [s]
 #pragma once
 
@@ -26,24 +33,34 @@ struct Spectrum {
   double omega_max = 0.0;      // upper bound of the largest natural frequency used below [rad/s]
   double element_bound = 0.0;  // the bound by single elements [rad/s]
   double lambda_share = 0.0;   // lambda_ela / (lambda_ela + mu_ela): lambda's largest share in a mode
-  double lambda_rate = 0.0;
+  double lambda_rate = 0.0;    // the largest of its branches
   double mu_rate = 0.0;
   bool lambda_on = false;
   bool mu_on = false;
   double baumgarte = 0.0;  // omega; 0 where no constraint needs it
   int lanczos_steps = 0;
-  // Of the full operator, under every set of constraints: for Euler, whose limit hangs on the damping of
-  // single modes, where the branches relax at different rates and the scene is small. Else empty, and the
-  // limit a safe bound.
+  // Beyond one branch, else empty and 0: all springs by their rate, and the viscous part with an upper bound
+  // of the largest eigenvalue of M^-1 (viscous_lambda J_lambda + viscous_mu J_mu) [1/s].
+  std::vector<Relaxation> relaxations;
+  Moduli viscous;
+  double viscous_max = 0.0;
+  // Of the full operator, under every set of constraints, where the scene is small: for Euler, whose limit
+  // hangs on the damping of single modes, where not everything relaxes at one rate. Else empty, and the limit
+  // a safe bound.
   std::vector<std::complex<double>> eigenvalues;
+
+  // No eigenvalue's real part is below -largest_rate(): of the branches and the viscous part [1/s].
+  double largest_rate() const;
+  // Of the branch that remembers longest; 0 where something never forgets, infinite where nothing remembers.
+  double slowest_rate() const;
 };
 
 // Largest h with |R(h s)| <= 1 for every s that `spectrum` allows; 0 where no step is stable (Euler without
 // damping in some mode), infinite where every step is (exponential, implicit: always).
 double stable_step(const Spectrum& spectrum, IntegratorKind integrator);
 
-// Whether that is only a safe bound, the true limit possibly larger: Euler, on scenes too large for their
-// eigenvalues.
+// Whether that is only a safe bound, the true limit possibly larger: Euler, and RK4 with a viscous part, on
+// scenes too large for their eigenvalues.
 bool stable_step_is_bound(const Spectrum& spectrum, IntegratorKind integrator);
 
 // The same for one eigenvalue s (Re s <= 0), used above and by the tests on exact spectra.

@@ -157,7 +157,8 @@ void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const StateV
   std::vector<double> tensor(3 * mesh.triangles.size());
   strain(mesh, state.u, tensor);
   write_array(file, "strain", 3, tensor, names);
-  stress(mesh, state.w_lambda, state.w_mu, tensor);
+  const bool apart = !state.pull_lambda.empty();
+  stress(mesh, apart ? state.pull_lambda : state.w_lambda, apart ? state.pull_mu : state.w_mu, tensor);
   write_array(file, "stress", 3, tensor, names);
   file.write("      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n");
   file.commit();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include "kernels/node_blocks.hpp"
@@ -76,8 +75,8 @@ std::vector<DirectedEdge> directed_edges(const Mesh& mesh) {
 }  // namespace
 
 std::optional<Combined> combined(const Material& material) {
-  const double a = material.lambda_rate(), b = material.mu_rate();
-  const bool alike = std::abs(a - b) <= 2.0 * std::numeric_limits<double>::epsilon() * std::max(a, b);
+  if (!material.is_one_branch()) return std::nullopt;
+  const bool alike = same_rate(material.lambda_rate(), material.mu_rate());
   if (material.lambda_ela > 0.0 && material.mu_ela > 0.0 && !alike) return std::nullopt;
   return Combined{material.lambda_ela, material.mu_ela};
 }

@@ -46,7 +46,8 @@ struct Combined {
   double lambda = 0.0, mu = 0.0;  // [Pa]
 };
 
-// Whether a material's branches can be combined: equal rates (but for rounding), or a zero modulus.
+// Whether a material's two moduli can be combined: one branch of equal rates (but for rounding), or of a zero
+// modulus.
 std::optional<Combined> combined(const Material& material);
 
 // What an edge keeps of its level for a row of 4: all four numbers, or xx and yy alone.

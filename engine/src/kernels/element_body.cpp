@@ -11,11 +11,6 @@ namespace {
 
 constexpr std::int32_t shared_block = 4;  // bandwidths: shorter ones compute too many triangles twice
 
-std::vector<ElementForm::Block> make_blocks(const ElementForm& form, int threads) {
-  const bool shared = paying_threads(form.nodes, threads) > 1;
-  return form.blocks(std::max(smallest_block, shared ? shared_block * form.bandwidth : 0));
-}
-
 std::vector<double> twice(const std::vector<double>& by_node) {
   std::vector<double> result;
   result.reserve(2 * by_node.size());
@@ -48,11 +43,16 @@ SweepMaterial sweep_material(const Material& m) {
 
 }  // namespace
 
+std::vector<ElementForm::Block> element_blocks(const ElementForm& form, int threads) {
+  const bool shared = paying_threads(form.nodes, threads) > 1;
+  return form.blocks(std::max(smallest_block, shared ? shared_block * form.bandwidth : 0));
+}
+
 ElementBody::ElementBody(const Model& model, const ElementForce& force, int threads)
     : Body(model, 0.0),
       element_force_(force),
       form_(force.form()),
-      blocks_(make_blocks(form_, threads)),
+      blocks_(element_blocks(form_, threads)),
       team_(block_ends(blocks_), paying_threads(form_.nodes, threads)),
       mass_(twice(form_.node_mass)),
       terms_(mass_, form_.kernel_node, block_ends(blocks_)),

@@ -22,6 +22,9 @@
 
 namespace rheo {
 
+// The blocks that sweeps visit; threads: as asked for (block_team.hpp).
+std::vector<ElementForm::Block> element_blocks(const ElementForm& form, int threads);
+
 class ElementBody final : public Body {
  public:
   // `force` must outlive this. threads: 0 for as many as pay on this machine.

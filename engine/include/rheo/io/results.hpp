@@ -18,6 +18,7 @@ namespace rheo {
 
 struct StateView {  // all n x 2
   std::span<const double> u, v, w_lambda, w_mu;
+  std::span<const double> pull_lambda = {}, pull_mu = {};  // what the stress comes from; empty: w
 };
 
 void write_state_csv(const std::filesystem::path& file, const Mesh& mesh, const StateView& state);

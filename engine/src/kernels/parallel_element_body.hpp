@@ -1,0 +1,38 @@
+// ParallelBody by the element form (element_form.hpp), of one material.
+//
+// Threads  as ElementBody: blocks of nodes by several threads give the same bits
+#pragma once
+
+#include <vector>
+
+#include "kernels/element_force.hpp"
+#include "kernels/parallel_body.hpp"
+
+namespace rheo {
+
+class ParallelElementBody final : public ParallelBody {
+ public:
+  // `force` must outlive this. threads: 0 for as many as pay on this machine.
+  ParallelElementBody(const Model& model, const ElementForce& force, int threads);
+
+  std::string_view kernel() const override { return "element"; }
+
+ protected:
+  void sweep_force(const SweepArrays& arrays, double h, std::size_t block) override;
+  Forms forms_of(const double* w, std::size_t stride, const double* x) override;
+  std::array<double, 2> force_of(const double* rows, std::size_t node) const override;
+
+ private:
+  const ElementForce& element_force_;
+  const ElementForm& form_;
+  std::vector<ElementForm::Block> blocks_;
+  // F by node while a sweep adds it up, zero otherwise; several threads: by block number modulo 3, because a
+  // block's triangles reach into the blocks beside it.
+  std::vector<std::vector<double>> forces_;
+  // Of energies, by stretch: added up in their order, which the number of threads does not change.
+  std::vector<ElementForm::Block> stretches_;
+  BlockTeam stretch_team_;
+  std::vector<Forms> sums_;
+};
+
+}  // namespace rheo
