@@ -19,9 +19,9 @@
 namespace rheo {
 namespace {
 
-// The exponential integrator's error over its tolerance: at most 0.42 on the scenes of the tests, seldom
-// below 0.01, since steps' errors are estimated part by part and added up.
-constexpr double error_of_tolerance = 0.5;
+// The exponential integrator's error over its tolerance, at most: 0.42 on the scenes of the tests, 0.75 on a
+// thousand random ones, seldom below 0.01, since steps' errors are estimated part by part and added up.
+constexpr double error_of_tolerance = 1.5;
 constexpr double largest_share = 0.95;  // of the stable step: the coarsest trial run
 // An integrator with trial runs is worth them if its coarsest run costs so many times less.
 constexpr double worth_trials = 8.0;

@@ -9,6 +9,8 @@
 // Units    energies [J], powers [W]
 #pragma once
 
+#include <algorithm>
+
 #include "body.hpp"
 
 namespace rheo {
@@ -17,6 +19,8 @@ class EnergyBook {
  public:
   void book_step(const EnergySample& before, const EnergySample& after, double h);
   void book_impulse(double work);
+  // Raises the scale so that `energy` is within work() + turnover().
+  void allow(double energy) { turnover_ = std::max(turnover_, energy - work_); }
 
   double dissipated() const { return dissipated_; }
   double work() const { return work_; }

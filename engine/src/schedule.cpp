@@ -7,6 +7,7 @@
 
 #include "full_spectrum.hpp"
 #include "lanczos.hpp"
+#include "step_choice.hpp"
 #include "timeline.hpp"
 
 namespace rheo {
@@ -183,6 +184,19 @@ void Schedule::make_spectrum() {
   if (has_columns(scene_)) s.baumgarte = scene_.time.baumgarte;
 }
 
+void Schedule::courses(const Signature& active, double inside,
+                       std::vector<std::array<Polynomial, 2>>& out) const {
+  out.clear();
+  for (std::size_t k = 0; k < holders_.size(); ++k) {
+    std::array<Polynomial, 2> course{};
+    if (active[k] && holders_[k].move != nullptr) {
+      course = piece_at(*holders_[k].move, inside);
+      if (holders_[k].axis != Axis::both) course[holders_[k].axis == Axis::x ? 1 : 0] = {};
+    }
+    out.push_back(course);
+  }
+}
+
 void Schedule::fill(std::size_t i, double begin, Interval& result) {
   result.begin = begin;
   const double inside = middle(i);
@@ -196,21 +210,13 @@ void Schedule::fill(std::size_t i, double begin, Interval& result) {
   result.eliminated.clear();
   if (scene_.time.constraints == ConstraintMethod::automatic) result.eliminated = result.held;
   result.solver = set->solver;
-  result.course.clear();
-  result.moving = false;
-  for (std::size_t k = 0; k < holders_.size(); ++k) {
-    std::array<Polynomial, 2> course{};
-    if (active[k] && holders_[k].move != nullptr) {
-      course = piece_at(*holders_[k].move, inside);
-      for (int axis = 0; axis < 2; ++axis) {
-        if (holders_[k].axis == (axis == 0 ? Axis::y : Axis::x)) course[axis] = {};
-        Polynomial change = course[axis];
-        change.c[0] = 0.0;
-        if (!change.is_zero()) result.moving = true;
-      }
-    }
-    result.course.push_back(course);
-  }
+  courses(active, inside, result.course);
+  result.moving = std::any_of(result.course.begin(), result.course.end(), [](const auto& course) {
+    return std::any_of(course.begin(), course.end(), [](Polynomial change) {
+      change.c[0] = 0.0;
+      return !change.is_zero();
+    });
+  });
 
   const auto size = static_cast<Eigen::Index>(model_.layout.part);
   result.force.setZero(size);
@@ -226,19 +232,43 @@ void Schedule::fill(std::size_t i, double begin, Interval& result) {
   }
 }
 
+double resolving_bound(const TimeSettings& settings, std::span<const std::array<Polynomial, 2>> courses,
+                       double bound) {
+  constexpr double steps_a_motion = 16.0;
+  if (settings.step > 0.0 || takes_long_steps(settings.integrator)) return bound;
+  for (const auto& course : courses) {
+    for (const Polynomial& p : course) {
+      if (p.c[5] == 0.0) continue;  // of degree three at most: exact but for the body's answer
+      const double length = 0.4 * std::abs(p.c[4] / p.c[5]);  // of d (10 s^3 - 15 s^4 + 6 s^5)
+      bound = std::min(bound, length / steps_a_motion);
+    }
+  }
+  return bound;
+}
+
 std::int64_t Schedule::planned_steps(double bound) const {
   const TimeSettings& settings = scene_.time;
   std::int64_t steps = 0;
   double t = 0.0;
   std::size_t interval = 0;
+  double here = bound;
+  std::vector<std::array<Polynomial, 2>> course;
+  const auto look = [&] {
+    if (scene_.moves.empty()) return;
+    courses(signature(interval), middle(interval), course);
+    here = resolving_bound(settings, course, bound);
+  };
+  look();
   const auto run_to = [&](double target) {
     while (t < target && !same_time(t, target)) {
       const double event = end(interval);
       const bool passes = event <= target || same_time(event, target);
       const double stop = passes ? event : target;
-      steps += steps_in(stop - t, settings.refinement, bound);
+      steps += steps_in(stop - t, settings.refinement, here);
       t = stop;
-      if (passes) ++interval;
+      if (!passes) continue;
+      ++interval;
+      look();
     }
   };
   for (std::int64_t k = 0; k < output_count(settings); ++k) run_to(output_time(settings, k));

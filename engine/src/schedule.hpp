@@ -17,6 +17,12 @@ namespace rheo {
 // Whether some constraint of the scene is not eliminated but solved for (equation 4).
 bool has_columns(const Scene& scene);
 
+// The automatic step's bound where smooth motions go on: RK4 leaves the residual forces of what is moved an
+// error that hangs on the steps through such a motion alone, 1e-4 of them at 16. A given step is left as it
+// is, and so are integrators that take forcing into account as it is.
+double resolving_bound(const TimeSettings& settings, std::span<const std::array<Polynomial, 2>> courses,
+                       double bound);
+
 // Node and h l / 2, summed over a traction's edges; rising nodes.
 using LoadPattern = std::vector<std::pair<int, double>>;
 // Into memory of 2 entries an edge that `out` may have already.
@@ -60,6 +66,8 @@ class Schedule {
 
   double middle(std::size_t i) const;
   Signature signature(std::size_t i) const;
+  // By holder: how it moves around t = inside; nothing where it is not active.
+  void courses(const Signature& active, double inside, std::vector<std::array<Polynomial, 2>>& out) const;
   std::vector<Column> general_columns() const;
   // What a set of active holders holds, and the solver for it.
   struct Held {

@@ -52,6 +52,7 @@ class Stepping {
   std::optional<Divergence> run_segment(double end);
   double violation(std::size_t column);
   void note_violations();
+  void note_motions();
   std::optional<Divergence> check_divergence();
   Divergence divergence_now();
 
@@ -73,6 +74,7 @@ class Stepping {
   double time_ = 0.0;
   double largest_step_ = 0.0;
   std::vector<double> allowed_violation_;
+  int excuses_ = 0;  // for energy beyond the work by quadrature
   std::optional<Divergence> diverged_;
 };
 
