@@ -10,7 +10,9 @@
 #include <string>
 #include <utility>
 
+#include "check_plots.hpp"
 #include "failure.hpp"
+#include "material_rows.hpp"
 #include "memory_need.hpp"
 #include "option_values.hpp"
 #include "overrides.hpp"
@@ -63,12 +65,6 @@ double area_of(const rheo::Mesh& mesh) {
   return area;
 }
 
-std::string branch_text(double ela, double vis, double rate) {
-  if (ela == 0.0) return "off";
-  if (rate == 0.0) return fmt::format("{:g} Pa, never relaxes", ela);
-  return fmt::format("{:g} Pa, {:g} Pa s (relaxation time {:.4g} s)", ela, vis, 1.0 / rate);
-}
-
 void print_mesh(const rheo::Scene& scene) {
   const rheo::Mesh& mesh = scene.mesh;
   row("mesh", "{} nodes, {} triangles, {} boundary edges", mesh.node_count(), mesh.triangle_count(),
@@ -80,8 +76,7 @@ void print_mesh(const rheo::Scene& scene) {
   const double area = area_of(mesh);
   row("area", "{:.6g} m^2, thickness {:g} m", area, mesh.thickness);
   const rheo::Material& material = scene.material;
-  row("lambda", "{}", branch_text(material.lambda_ela, material.lambda_vis, material.lambda_rate()));
-  row("mu", "{}", branch_text(material.mu_ela, material.mu_vis, material.mu_rate()));
+  for (const auto& [name, text] : material_rows(scene)) row(name.c_str(), "{}", text);
   row("mass", "{:.6g} kg ({}), density {:g} kg/m^3", area * mesh.thickness * material.density,
       material.mass == rheo::Mass::lumped ? "lumped" : "consistent", material.density);
 }
@@ -265,6 +260,8 @@ void print_cost(rheo::Simulation& simulation, Verdict verdict) {
 void check_scene(const Options& options) {
   rheo::Scene scene = load_scene(options);
   require_memory(scene, options);
+  std::optional<OutputFolder> folder;  // refused before all the work
+  if (options.plot) folder.emplace(options.folder, options.force ? Replace::earlier_run : Replace::nothing);
   std::optional<rheo::AccuracyPlan> plan;
   if (scene.time.accuracy > 0.0) {
     Progress progress(options.quiet ? Verbosity::quiet : Verbosity::normal);
@@ -295,6 +292,11 @@ void check_scene(const Options& options) {
   print_loads(scene);
   print_steps(*simulation, time.integrator, euler_limit, verdict, plan);
   print_cost(*simulation, verdict);
+  if (folder) {
+    for (const std::string& note : write_plots(scene, options, *folder))
+      fmt::print("  note: {}\n", printable(note));
+    for (const std::string& name : folder->all_made()) row("wrote", "{}", (folder->path() / name).string());
+  }
   // A run's own words for the refusal.
   simulation.reset();
   if (verdict != Verdict::accepted) simulation.emplace(scene, options.simulation);

@@ -31,6 +31,7 @@ constexpr const char* exit_codes =
 constexpr const char* examples =
     "Examples:\n"
     "  rheo check beam.toml\n"
+    "  rheo check beam.toml --plot -o out/material\n"
     "  rheo run beam.toml -o out/beam --vtu\n"
     "  rheo render beam.toml --color w_mu --size 1920x1080\n"
     "  rheo run beam.toml --integrator euler --step 1e-4 --force\n"
@@ -45,7 +46,7 @@ struct Texts {
   std::string scene, folder, integrator, step, tolerance, accuracy, duration, frame_rate, threads;
   std::string size, color, range, backend, sheet;
   std::string kernel, csv, budget;
-  bool vtu = false, force = false, quiet = false, allow_unstable = false, no_energies = false;
+  bool vtu = false, force = false, quiet = false, allow_unstable = false, no_energies = false, plot = false;
 };
 
 void add_time_options(CLI::App& command, Texts& texts) {
@@ -184,6 +185,31 @@ void add_bench_options(CLI::App& command, Texts& texts) {
   add(output, "--backend", texts.backend, "NAME", "auto, osmesa or egl, to draw with");
 }
 
+void add_plot_options(CLI::App& command, Texts& texts) {
+  const char* group = "Material curves";
+  command
+      .add_flag("--plot", texts.plot,
+                "draw the material: relaxation.csv, relaxation.png (over time),\nmoduli.csv, moduli.png "
+                "(storage and loss over frequency) and, where data\nwere fitted, fit.png")
+      ->group(group);
+  command
+      .add_option("-o,--output", texts.folder,
+                  "folder of these; default: out/ and the scene's stem and _check")
+      ->type_name("DIR")
+      ->group(group);
+  command
+      .add_flag("--force", texts.force, "replace what an earlier rheo wrote into DIR; other files there stay")
+      ->group(group);
+  command
+      .add_option("--size", texts.size,
+                  fmt::format("pixels of the pictures, {};\ndefault: as the scene says", picture_sizes()))
+      ->type_name("WxH")
+      ->group(group);
+  command.add_option("--backend", texts.backend, "auto, osmesa or egl, to draw with")
+      ->type_name("NAME")
+      ->group(group);
+}
+
 CLI::App* add_command(CLI::App& program, Texts& texts, const std::string& name,
                       const std::string& description) {
   CLI::App* command = program.add_subcommand(name, description);
@@ -304,6 +330,7 @@ Options read_values(const Texts& texts, const CLI::App& command) {
   options.folder = std::filesystem::path("out") / options.scene.stem();
   // Apart from the results of run and render, which --force would take for an earlier run's.
   if (options.command == Command::bench) options.folder += "_bench";
+  if (options.command == Command::check) options.folder += "_check";
   if (given("--csv")) {
     if (texts.csv.empty()) throw Failure(ExitCode::usage, "--csv '': must be the path of a file");
     options.csv = texts.csv;
@@ -314,6 +341,12 @@ Options read_values(const Texts& texts, const CLI::App& command) {
     options.folder = texts.folder;
   }
   options.vtu = texts.vtu;
+  options.plot = texts.plot;
+  for (const char* other : {"--output", "--force", "--size", "--backend"}) {
+    if (options.command == Command::check && given(other) && !options.plot)
+      throw Failure(ExitCode::usage,
+                    fmt::format("{} goes with --plot: without it check writes and draws nothing", other));
+  }
   options.force = texts.force;
   options.quiet = texts.quiet;
   options.threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 4);
@@ -348,6 +381,7 @@ std::optional<Options> read_command_line(int argc, char** argv) {
                                  "simulate and draw: run's files, frames, sheet.png and residual.png");
   CLI::App* check = add_command(program, texts, "check",
                                 "read the scene; print sizes, stable steps and a cost forecast; no run");
+  add_plot_options(*check, texts);
   add_output_options(*run, texts);
   add_output_options(*render, texts);
   add_picture_options(*render, texts);

@@ -52,6 +52,7 @@ struct Options {
   std::filesystem::path csv;  // bench: its table; empty: into the folder
   double budget = 60.0;       // bench: seconds
   bool vtu = false;
+  bool plot = false;  // check: the material's curves into the folder
   bool force = false;
   rheo::SimulationOptions simulation;
   bool quiet = false;

@@ -23,8 +23,9 @@ namespace app {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array<std::string_view, 7> top_names{"state.csv",    "history.csv", "run.json", "sheet.png",
-                                                    "residual.png", "bench.csv",   "bench.png"};
+constexpr std::array<std::string_view, 12> top_names{
+    "state.csv", "history.csv",    "run.json",   "sheet.png",      "residual.png", "bench.csv",
+    "bench.png", "relaxation.csv", "moduli.csv", "relaxation.png", "moduli.png",   "fit.png"};
 
 std::string_view without_part(std::string_view name) {
   constexpr std::string_view part = ".part";

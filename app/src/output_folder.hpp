@@ -5,7 +5,7 @@
 // begins too, with exit_status null and the files to come, so that what an interrupted one has left is known.
 //
 //   state.csv history.csv run.json sheet.png residual.png frames/frame_00000.png ... vtu/state_00000.vtu ...
-//   vtu/state.pvd bench.csv bench.png
+//   vtu/state.pvd bench.csv bench.png relaxation.csv relaxation.png moduli.csv moduli.png fit.png
 //
 // Errors   Failure(usage): it holds files already and Replace::nothing was asked for; Failure(file): it is no
 //          folder, or cannot be made, read or written, or a folder is in the place of a result

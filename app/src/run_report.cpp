@@ -183,7 +183,53 @@ Json run_of(const Row& row) {
           {"error", number(row.error)}};
 }
 
+Json pair_of(const rheo::Moduli& moduli) {
+  return {{"lambda", moduli.lambda}, {"mu", moduli.mu}};
+}
+
+Json material_of(const rheo::Material& material) {
+  Json branches = Json::array();
+  for (std::size_t k = 0; k < material.branch_count(); ++k) {
+    const rheo::MaxwellBranch b = material.branch(k);
+    branches.push_back({{"lambda_ela", b.lambda_ela},
+                        {"mu_ela", b.mu_ela},
+                        {"lambda_vis", number(b.lambda_vis)},
+                        {"mu_vis", number(b.mu_vis)}});
+  }
+  return {{"maxwell", branches},
+          {"elastic", pair_of(material.elastic)},
+          {"viscous", pair_of(material.viscous)},
+          {"density", material.density}};
+}
+
+Json fit_of(const std::optional<rheo::MeasuredMaterial>& measured) {
+  if (!measured) return nullptr;
+  const rheo::PronySeries& series = measured->fit.series;
+  Json terms = Json::array();
+  for (const rheo::PronyTerm& term : series.terms)
+    terms.push_back({{"modulus", term.modulus}, {"time", term.time}});
+  return {{"file", measured->file},
+          {"terms", terms},
+          {"elastic", series.elastic},
+          {"viscous", series.viscous},
+          {"error_rms", measured->fit.rms},
+          {"error_largest", measured->fit.largest},
+          {"error_largest_at", measured->fit.largest_at}};
+}
+
 }  // namespace
+
+void write_check_report(const std::filesystem::path& path, const Options& options, const rheo::Scene& scene,
+                        const CheckReport& report) {
+  Json json = beginning(options, scene, report);
+  json["preset"] = scene.origin.preset.empty() ? Json(nullptr) : Json(scene.origin.preset);
+  json["material"] = material_of(scene.material);
+  json["fit"] = fit_of(scene.origin.measured);
+  json["files"] = report.files;
+  json["notes"] = report.notes;
+  json["exit_status"] = static_cast<int>(ExitCode::done);
+  write(path, json);
+}
 
 std::string file_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);

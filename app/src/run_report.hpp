@@ -85,6 +85,18 @@ struct BenchReport {
   std::string advice;
 };
 
+// Of check --plot: the material's numbers and the fit's take the place of settings, outputs, counters and
+// seconds.
+struct CheckReport {
+  std::string scene_text;
+  std::vector<Fingerprint> read_files;
+  std::vector<std::string> files;
+  std::vector<std::string> notes;
+};
+
+void write_check_report(const std::filesystem::path& file, const Options& options, const rheo::Scene& scene,
+                        const CheckReport& report);
+
 void write_bench_report(const std::filesystem::path& file, const Options& options, const rheo::Scene& scene,
                         const BenchReport& report);
 

@@ -279,8 +279,9 @@ class PlotPainter {
   void draw_legend() {
     for (const Entry& e : legend_) {
       const std::array<Point, 2> line{e.at, Point{e.at.x + sample(), e.at.y}};
-      canvas_.polyline(line, series_color(e.series), series_width(canvas_, e.series),
-                       series_dash(canvas_, e.series));
+      if (plot_.series[e.series].line)
+        canvas_.polyline(line, series_color(e.series), series_width(canvas_, e.series),
+                         series_dash(canvas_, e.series));
       if (plot_.series[e.series].markers) marker({e.at.x + sample() / 2, e.at.y}, e.series);
       canvas_.label({e.at.x + sample() + 0.5f * text_, e.at.y}, Align::left, TextSize::small, theme::ink,
                     plot_.series[e.series].name);
@@ -370,6 +371,7 @@ class PlotPainter {
     std::vector<Point> run;
     const auto draw_run = [&] {
       if (run.size() == 1 && !s.markers) marker(run.front(), k);
+      if (!s.line) run.clear();
       thin_out(run, axes_.area.width());
       canvas_.polyline(run, series_color(k), series_width(canvas_, k), series_dash(canvas_, k));
       run.clear();

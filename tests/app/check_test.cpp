@@ -42,6 +42,35 @@ TEST_F(Check, TellsSizesMaterialLoadsAndSteps) {
   EXPECT_THAT(row(finished.out, "memory"), HasSubstr("MB"));
 }
 
+TEST_F(Check, TellsTheMaterialsPartsAndConversions) {
+  write("beam.toml", small_beam_with("density = 0.2",
+                                     "density = 0.2\npoisson = 0.25\nplane = \"stress\"\n"
+                                     "[material.elastic]\nyoung = 3\n"
+                                     "[material.viscous]\nlambda = 0\nmu = 0.5\n"
+                                     "[[material.maxwell]]\nlambda_ela = 0\nmu_ela = 2\n"
+                                     "lambda_vis = inf\nmu_vis = inf"));
+  const Finished finished = rheo({"check", "beam.toml"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_EQ(row(finished.out, "from"),
+            "[material.elastic] young = 3 Pa, poisson = 0.25, plane stress: lambda 0.8 Pa, mu 1.2 Pa");
+  EXPECT_EQ(row(finished.out, "lambda 1"), "7 Pa, 4 Pa s (relaxation time 0.5714 s)");
+  EXPECT_EQ(row(finished.out, "lambda 2"), "off");
+  EXPECT_EQ(row(finished.out, "mu 2"), "2 Pa, never relaxes");
+  EXPECT_EQ(row(finished.out, "elastic"), "lambda 0.8 Pa, mu 1.2 Pa");
+  EXPECT_EQ(row(finished.out, "viscous"), "lambda 0 Pa s, mu 0.5 Pa s");
+}
+
+TEST_F(Check, TellsAPresetsCircuitAndSource) {
+  write("beam.toml", small_beam_with("density = 0.2",
+                                     "density = 0.2\npreset = \"zener\"\n"
+                                     "lambda_elastic = 1\nmu_elastic = 2"));
+  const Finished finished = rheo({"check", "beam.toml"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_EQ(row(finished.out, "preset"),
+            "zener: (ela - vis) | elastic; Zener, Elasticity and Anelasticity of Metals, 1948");
+  EXPECT_EQ(row(finished.out, "elastic"), "lambda 1 Pa, mu 2 Pa");
+}
+
 TEST_F(Check, AutoIsAQuarterOfTheStableStep) {
   write("beam.toml", small_beam());
   const Finished finished = rheo({"check", "beam.toml"});

@@ -52,6 +52,13 @@ TEST_F(GraphicsFree, RunAndCheckOpenNone) {
   EXPECT_THAT(graphics_in(loader_log({"check", "beam.toml"})), testing::IsEmpty());
 }
 
+TEST_F(GraphicsFree, CheckOfMeasuredDataOpensNone) {
+  write("data.csv", "1,4\n2,3\n3,2.5\n4,2.2\n");
+  write("beam.toml", small_beam_with("lambda_ela = 7.0\nmu_ela = 5.0\nlambda_vis = 4.0\nmu_vis = 2.0",
+                                     "relaxation = \"data.csv\"\npoisson = 0.3"));
+  EXPECT_THAT(graphics_in(loader_log({"check", "beam.toml"})), testing::IsEmpty());
+}
+
 #ifdef RHEO_HAS_RENDERER
 TEST_F(GraphicsFree, RenderOpensOneWhichShowsThatTheLogWouldTell) {
   write("beam.toml", small_beam());

@@ -31,33 +31,18 @@ void DrawAndReadBackStill(benchmark::State& state) {
   state.SetItemsProcessed(state.iterations());
 }
 
+void sizes(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"triangles", "height"})->UseRealTime()->Unit(benchmark::kMillisecond);
+  for (int triangles : {12, 1000, 10000, 100000}) b->Args({triangles, 720});
+}
+
 BENCHMARK(DrawAndReadBack)
-    ->ArgNames({"triangles", "height"})
-    ->Args({12, 720})
-    ->Args({1000, 720})
-    ->Args({10000, 720})
-    ->Args({100000, 720})
+    ->Apply(sizes)
     ->Args({1000000, 720})
     ->Args({1000, 240})
     ->Args({1000, 1080})
-    ->Args({1000, 2160})
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(DrawAndReadBackBare)
-    ->ArgNames({"triangles", "height"})
-    ->Args({12, 720})
-    ->Args({1000, 720})
-    ->Args({10000, 720})
-    ->Args({100000, 720})
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK(DrawAndReadBackStill)
-    ->ArgNames({"triangles", "height"})
-    ->Args({12, 720})
-    ->Args({1000, 720})
-    ->Args({10000, 720})
-    ->Args({100000, 720})
-    ->UseRealTime()
-    ->Unit(benchmark::kMillisecond);
+    ->Args({1000, 2160});
+BENCHMARK(DrawAndReadBackBare)->Apply(sizes);
+BENCHMARK(DrawAndReadBackStill)->Apply(sizes);
 
 }  // namespace

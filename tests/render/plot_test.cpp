@@ -66,6 +66,19 @@ TEST_F(Plots, ALineRunsFromCornerToCorner) {
   EXPECT_NEAR((middle.y0 + middle.y1) / 2.0, (line.y0 + line.y1) / 2.0, 2);
 }
 
+TEST_F(Plots, PointsAloneHaveNoLineBetweenThem) {
+  render::Plot p;
+  const std::vector<double> two{0.0, 1.0};
+  p.series = {{.name = "", .x = two, .y = two, .markers = true, .line = false}};
+  const Image image = draw(p);
+  const Box marks = support::find(image, [](int, int, const Pixel& pixel) { return blue(pixel); });
+  EXPECT_GT(marks.width(), 0.8 * width);
+  const Box between = support::find(image, [&](int x, int, const Pixel& pixel) {
+    return x > marks.x0 + 20 && x < marks.x1 - 20 && blue(pixel);
+  });
+  EXPECT_EQ(between.count, 0);
+}
+
 TEST_F(Plots, AConstantSeriesIsAFlatLine) {
   for (const double value : {0.0, 3.0, -1e-20, 1e300}) {
     const Image image = draw(plot(std::vector<double>(101, value)));

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "rheo/material.hpp"
+#include "rheo/material_origin.hpp"
 #include "rheo/mesh.hpp"
 
 namespace rheo {
@@ -131,6 +132,7 @@ struct Scene {
   std::string title;
   Mesh mesh;  // prepared
   Material material;
+  MaterialOrigin origin;   // of the material, for reports
   Vec2 body_acceleration;  // [m/s^2]
   std::vector<Fix> fixes;
   std::vector<Move> moves;

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "io/material_reader.hpp"
 #include "io/message.hpp"
 #include "io/read_file.hpp"
 #include "io/scene_items.hpp"
@@ -23,8 +24,6 @@ namespace {
 constexpr std::size_t most_bytes = std::size_t{64} << 20;
 
 constexpr NumberRule positive_length{.low = 0.0, .low_allowed = false, .unit = "m"};
-constexpr NumberRule modulus{.low = 0.0, .unit = "Pa"};
-constexpr NumberRule viscosity{.low = 0.0, .low_allowed = false, .infinite_allowed = true, .unit = "Pa s"};
 
 using Words = std::vector<std::string>;
 
@@ -58,24 +57,33 @@ class SceneReader {
   }
 
  private:
-  // [name], empty where it is not there; `required`: refused then.
-  TableReader table(const std::string& name, Words keys) const {
+  // [name], empty where it is not there.
+  const TomlValue& value_of(const std::string& name) const {
     static const TomlValue empty;
     const TomlEntry* entry = root_.find(name);
-    const std::string header = fmt::format("[{}]", name);
-    if (entry == nullptr) return TableReader(empty, file_, header, 1, std::move(keys));
+    if (entry == nullptr) return empty;
     if (entry->value.type == TomlValue::Type::array) {
-      throw Error(Error::Kind::input, fmt::format("{}:{}: {} is a list: one table, {}, is needed", file_,
-                                                  entry->line, name, header));
+      throw Error(Error::Kind::input, fmt::format("{}:{}: {} is a list: one table, [{}], is needed", file_,
+                                                  entry->line, name, name));
     }
-    return TableReader(entry->value, file_, header, entry->value.line, std::move(keys));
+    return entry->value;
   }
 
-  TableReader required_table(const std::string& name, const char* meaning, Words keys) const {
+  const TomlValue& required_value_of(const std::string& name, const char* meaning) const {
     if (root_.find(name) == nullptr) {
       throw Error(Error::Kind::input,
                   fmt::format("{}:1: [{}] is missing: {} is needed", file_, name, meaning));
     }
+    return value_of(name);
+  }
+
+  TableReader table(const std::string& name, Words keys) const {
+    const TomlValue& value = value_of(name);
+    return TableReader(value, file_, fmt::format("[{}]", name), value.line, std::move(keys));
+  }
+
+  TableReader required_table(const std::string& name, const char* meaning, Words keys) const {
+    required_value_of(name, meaning);
     return table(name, std::move(keys));
   }
 
@@ -174,21 +182,14 @@ class SceneReader {
   }
 
   void read_material() {
-    const TableReader material =
-        required_table("material", "lambda_ela, mu_ela, lambda_vis, mu_vis and density",
-                       {"lambda_ela", "mu_ela", "lambda_vis", "mu_vis", "density", "mass"});
-    static const std::array<std::string, 2> masses{"lumped", "consistent"};
-    Material& m = scene_.material;
-    m.lambda_ela =
-        material.required_number("lambda_ela", modulus, "the elastic modulus of the lambda branch");
-    m.mu_ela = material.required_number("mu_ela", modulus, "the elastic modulus of the mu branch");
-    m.lambda_vis =
-        material.required_number("lambda_vis", viscosity, "the viscous modulus of the lambda branch");
-    m.mu_vis = material.required_number("mu_vis", viscosity, "the viscous modulus of the mu branch");
-    m.density = material.required_number("density", {.low = 0.0, .low_allowed = false, .unit = "kg/m^3"},
-                                         "the density");
-    m.mass = static_cast<Mass>(material.choice("mass", masses, 0));
-    material.locate([&] { m.validate("[material]"); });
+    MaterialReading reading = rheo::read_material(
+        required_value_of("material",
+                          "lambda_ela, mu_ela, lambda_vis, mu_vis and density (or a preset, parts or data)"),
+        file_, folder_);
+    scene_.material = std::move(reading.material);
+    scene_.origin = std::move(reading.origin);
+    scene_.files.insert(scene_.files.end(), reading.files.begin(), reading.files.end());
+    scene_.notes.insert(scene_.notes.end(), reading.notes.begin(), reading.notes.end());
   }
 
   void read_body_force() {
@@ -196,25 +197,9 @@ class SceneReader {
     scene_.body_acceleration = body.pair("acceleration", {.unit = "m/s^2"}, {});
   }
 
-  // The tables of [[name]].
   const std::vector<TomlValue>& list(const std::string& name) const {
-    static const std::vector<TomlValue> none;
     const TomlEntry* entry = root_.find(name);
-    if (entry == nullptr) return none;
-    const TomlValue& value = entry->value;
-    if (value.type == TomlValue::Type::array) {
-      for (const TomlValue& item : value.items) {
-        if (item.type != TomlValue::Type::table) refuse_list(name, item.line, item);
-      }
-      return value.items;
-    }
-    refuse_list(name, entry->line, value);
-  }
-
-  [[noreturn]] void refuse_list(const std::string& name, int line, const TomlValue& value) const {
-    throw Error(Error::Kind::input,
-                fmt::format("{}:{}: {} = {}: several of them are allowed, so write [[{}]]", file_, line, name,
-                            written(value), name));
+    return tables_of(entry == nullptr ? nullptr : &entry->value, file_, name);
   }
 
   void read_items() {

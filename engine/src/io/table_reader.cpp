@@ -234,4 +234,20 @@ std::string TableReader::where(const TomlValue& value) const {
   return fmt::format("{}:{}: {}", file_, value.line, header_);
 }
 
+const std::vector<TomlValue>& tables_of(const TomlValue* list, const std::string& file,
+                                        const std::string& name) {
+  static const std::vector<TomlValue> none;
+  if (list == nullptr) return none;
+  const auto refuse = [&](int line, const TomlValue& value) {
+    throw Error(Error::Kind::input,
+                fmt::format("{}:{}: {} = {}: several of them are allowed, so write [[{}]]", file, line, name,
+                            written(value), name));
+  };
+  if (list->type != TomlValue::Type::array) refuse(list->line, *list);
+  for (const TomlValue& item : list->items) {
+    if (item.type != TomlValue::Type::table) refuse(item.line, item);
+  }
+  return list->items;
+}
+
 }  // namespace rheo

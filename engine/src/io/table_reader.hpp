@@ -94,4 +94,8 @@ class TableReader {
   int line_;
 };
 
+// The tables of [[name]]; null: none.
+const std::vector<TomlValue>& tables_of(const TomlValue* list, const std::string& file,
+                                        const std::string& name);
+
 }  // namespace rheo

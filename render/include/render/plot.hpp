@@ -20,7 +20,8 @@ struct Series {
   std::string name;
   std::span<const double> x;
   std::span<const double> y;
-  bool markers = false;  // points as well as the line
+  bool markers = false;  // points
+  bool line = true;
 };
 
 struct Plot {

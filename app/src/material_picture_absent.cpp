@@ -1,0 +1,11 @@
+// Stands in for material_picture.cpp in a build without the renderer.
+#include "material_picture.hpp"
+
+namespace app {
+
+std::vector<std::string> draw_material(const rheo::Scene&, const MaterialCurves&, const Options&,
+                                       OutputFolder&) {
+  return {};
+}
+
+}  // namespace app
