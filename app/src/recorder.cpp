@@ -16,20 +16,32 @@ double length(std::span<const double> field, std::size_t i) {
   return std::hypot(field[2 * i], field[2 * i + 1]);
 }
 
-double scalar_at(const rheo::Simulation& simulation, rheo::ColorBy color, std::size_t i) {
-  switch (color) {
-    case rheo::ColorBy::w_lambda:
-      return length(simulation.w_lambda(), i);
-    case rheo::ColorBy::w_mu:
-      return length(simulation.w_mu(), i);
-    case rheo::ColorBy::w:
-      return std::hypot(length(simulation.w_lambda(), i), length(simulation.w_mu(), i));
-    case rheo::ColorBy::speed:
-      return length(simulation.v(), i);
-    case rheo::ColorBy::none:
-      break;
+// What is coloured, at every node.
+void find_scalars(const rheo::Simulation& simulation, rheo::ColorBy color, int branch,
+                  std::span<double> out) {
+  const auto number = static_cast<std::size_t>(branch - 1);
+  const auto lambda = branch == 0 ? simulation.w_lambda() : simulation.w_lambda(number);
+  const auto mu = branch == 0 ? simulation.w_mu() : simulation.w_mu(number);
+  const auto v = simulation.v();
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    switch (color) {
+      case rheo::ColorBy::w_lambda:
+        out[i] = length(lambda, i);
+        break;
+      case rheo::ColorBy::w_mu:
+        out[i] = length(mu, i);
+        break;
+      case rheo::ColorBy::w:
+        out[i] = std::hypot(length(lambda, i), length(mu, i));
+        break;
+      case rheo::ColorBy::speed:
+        out[i] = length(v, i);
+        break;
+      case rheo::ColorBy::none:
+        out[i] = 0.0;
+        break;
+    }
   }
-  return 0.0;
 }
 
 std::vector<double> flat(const std::vector<rheo::Vec2>& points) {
@@ -48,6 +60,7 @@ std::size_t record_length(const rheo::Scene& scene) {
 
 Recorder::Recorder(const rheo::Scene& scene, const std::filesystem::path& folder)
     : color_(scene.picture.color),
+      branch_(scene.picture.branch),
       rest_(flat(scene.mesh.points)),
       boundary_nodes_(rheo::nodes_of(scene.mesh.edge_groups.at("boundary"))),
       store_(folder, record_length(scene), rheo::output_count(scene.time)),
@@ -68,8 +81,10 @@ void Recorder::record(rheo::Simulation& simulation, std::int64_t) {
     include(rest_[2 * i] + u[2 * i], rest_[2 * i + 1] + u[2 * i + 1]);
   }
   if (color_ != rheo::ColorBy::none) {
+    scalars_.resize(u.size() / 2);
+    find_scalars(simulation, color_, branch_, scalars_);
     for (std::size_t i = 0; i < u.size() / 2; ++i) {
-      const double value = scalar_at(simulation, color_, i);
+      const double value = scalars_[i];
       record_[u.size() + i] = static_cast<float>(value);
       range_ = {std::min(range_[0], value), std::max(range_[1], value)};
     }

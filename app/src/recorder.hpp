@@ -45,7 +45,9 @@ class Recorder : public OutputSink {
   void include(double x, double y);
 
   rheo::ColorBy color_;
-  std::vector<double> rest_;  // n x 2
+  int branch_;                   // 0: all
+  std::vector<double> scalars_;  // of the moment
+  std::vector<double> rest_;     // n x 2
   std::vector<int> boundary_nodes_;
   FrameStore store_;
   std::vector<RecordedLoads> loads_;

@@ -165,6 +165,8 @@ void validate(const PictureSettings& picture) {
                        picture.size[0], picture.size[1], min_picture_size[0], max_picture_side,
                        min_picture_size[1], max_picture_side));
   }
+  if (picture.branch < 0)
+    refuse(where, fmt::format("branch = {}: 0 for all, or a Maxwell branch from 1 on", picture.branch));
   const auto [low, high] = picture.range;
   if (!picture.range_auto && (!(low < high) || !std::isfinite(low) || !std::isfinite(high))) {
     refuse(where, fmt::format("range = [{}, {}]: \"auto\" or two finite numbers [low, high], low < high", low,
@@ -194,6 +196,11 @@ void validate(const Scene& scene) {
   check_probes(scene.probes, mesh);
   validate(scene.time);
   validate(scene.picture);
+  if (static_cast<std::size_t>(scene.picture.branch) > scene.material.branch_count()) {
+    refuse("[render]", fmt::format("branch = {}: the material has {} Maxwell branch{}, 0 is all of them",
+                                   scene.picture.branch, scene.material.branch_count(),
+                                   scene.material.branch_count() == 1 ? "" : "es"));
+  }
 }
 
 }  // namespace rheo

@@ -127,6 +127,7 @@ baumgarte = 50
 constraints = "baumgarte"
 [render]
 color = "speed"
+branch = 1
 range = [0, 2.5]
 size = [640, 480]
 )");
@@ -169,6 +170,7 @@ size = [640, 480]
   EXPECT_EQ(scene.time.step, 1e-3);
   EXPECT_EQ(scene.time.constraints, ConstraintMethod::baumgarte);
   EXPECT_EQ(scene.picture.color, ColorBy::speed);
+  EXPECT_EQ(scene.picture.branch, 1);
   EXPECT_FALSE(scene.picture.range_auto);
   EXPECT_THAT(scene.picture.range, ElementsAre(0.0, 2.5));
   EXPECT_THAT(scene.picture.size, ElementsAre(640, 480));

@@ -122,6 +122,7 @@ enum class ColorBy { w_lambda, w_mu, w, speed, none };
 
 struct PictureSettings {
   ColorBy color = ColorBy::w_lambda;
+  int branch = 0;  // of w: 0: all but the elastic part; 1, 2, ...: one Maxwell branch alone
   bool range_auto = true;
   std::array<double, 2> range{0.0, 1.0};  // where not automatic
   std::array<int, 2> size{1280, 720};     // pixels

@@ -250,10 +250,14 @@ class SceneReader {
   }
 
   void read_render() {
-    const TableReader render = table("render", {"color", "range", "size"});
+    const TableReader render = table("render", {"color", "branch", "range", "size"});
     static const std::array<std::string, 5> colors{"w_lambda", "w_mu", "w", "speed", "none"};
     PictureSettings& p = scene_.picture;
     p.color = static_cast<ColorBy>(render.choice("color", colors, 0));
+    if (const TomlValue* branch = render.find("branch")) {
+      p.branch = render.integer("branch", *branch, 0, static_cast<int>(scene_.material.branch_count()),
+                                "Maxwell branch of the material, or 0 for all");
+    }
     if (const TomlValue* range = render.find("range"); range != nullptr && range->text != "auto") {
       if (range->type != TomlValue::Type::array) {
         render.refuse("range", *range, "\"auto\" or [low, high] is needed");
