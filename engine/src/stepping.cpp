@@ -15,6 +15,7 @@ constexpr double energy_at_rest = 1e-32;
 constexpr double violation_allowed = 0.01;  // of a constraint's coefficients times the largest |u|
 // A pole that the step hardly resolves lets a violation swing to some multiple of its start before it decays.
 constexpr double violation_swing = 100.0;
+constexpr double motion_lag = 20.0;  // of a motion's way: what one step over all of it makes of it
 // Where constraints do work, its quadrature can miss what happens within a step: a whole motion, a ringing.
 // Energy beyond it is then taken for explained, up to so many times and with room for so much more each time;
 // an unstable run uses that up within some tens of steps.
@@ -126,7 +127,7 @@ void Stepping::note_motions() {
   for (std::size_t j = 0; j < allowed_violation_.size(); ++j) {
     const Column& c = interval_.solver->columns()[j];
     const double way = body_.column_value(c, end, 0) - body_.column_value(c, time_, 0);
-    allowed_violation_[j] = std::max(allowed_violation_[j], 2.0 * std::abs(way));
+    allowed_violation_[j] = std::max(allowed_violation_[j], motion_lag * std::abs(way));
   }
 }
 

@@ -1,6 +1,9 @@
 // The command check: what a scene is and what it would cost, without a run.
 #include <gmock/gmock.h>
 
+#include <fstream>
+#include <string>
+
 #include "program.hpp"
 
 namespace app_tests {
@@ -40,6 +43,29 @@ TEST_F(Check, TellsSizesMaterialLoadsAndSteps) {
   EXPECT_THAT(row(finished.out, "step"), HasSubstr("auto: a quarter of the stable step"));
   EXPECT_THAT(row(finished.out, "cost"), HasSubstr("forecast"));
   EXPECT_THAT(row(finished.out, "memory"), HasSubstr("MB"));
+}
+
+// The first scene that a reader copies.
+TEST_F(Check, AcceptsTheScenesOfTheReadme) {
+  std::ifstream file(RHEO_SOURCE_DIR "/README.md");
+  std::string line, scene;
+  int scenes = 0;
+  for (bool inside = false; std::getline(file, line);) {
+    if (inside && line == "```") {
+      inside = false;
+      if (scene.find("[mesh]") == std::string::npos) continue;  // a part of one
+      write("readme.toml", scene);
+      const Finished finished = rheo({"check", "readme.toml"});
+      EXPECT_EQ(finished.exit_code, 0) << finished.err << scene;
+      ++scenes;
+    } else if (inside) {
+      scene += line + "\n";
+    } else if (line == "```toml") {
+      inside = true;
+      scene.clear();
+    }
+  }
+  EXPECT_GE(scenes, 1);
 }
 
 TEST_F(Check, TellsTheMaterialsPartsAndConversions) {
