@@ -177,6 +177,9 @@ TEST(Msh, OtherVersionsAndFormatsAreNamed) {
   EXPECT_THAT(message("plate.vtk"), HasSubstr("VTK"));
   EXPECT_THAT(message("plate.mesh"), HasSubstr("Medit"));
   EXPECT_THAT(message("plate.geo"), HasSubstr("$MeshFormat"));
+  if (fs::exists("/dev/zero")) {  // endless
+    EXPECT_THAT(message("/dev/zero"), HasSubstr("$MeshFormat"));
+  }
   EXPECT_THAT(refusal("v 0 0 0\nf 1 2 3\n"), HasSubstr("OBJ"));
   EXPECT_THAT(refusal(std::string("\x7f"
                                   "ELF\0\1\2\xff",

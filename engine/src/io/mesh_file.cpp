@@ -275,7 +275,7 @@ class MshReader {
 }  // namespace
 
 Mesh read_msh(const std::filesystem::path& file, LeftOutNodes* left_out) {
-  return parse_msh(read_file(file, "mesh", most_bytes), file.string(), left_out);
+  return parse_msh(read_file(file, "mesh", most_bytes, "$MeshFormat"), file.string(), left_out);
 }
 
 Mesh parse_msh(std::string bytes, const std::string& name, LeftOutNodes* left_out) {

@@ -25,7 +25,8 @@ struct CloseFile {
 
 }  // namespace
 
-std::string read_file(const std::filesystem::path& file, const std::string& what, std::size_t limit) {
+std::string read_file(const std::filesystem::path& file, const std::string& what, std::size_t limit,
+                      std::string_view beginning) {
   const auto cannot_read = [&](int reason) {
     return Error(Error::Kind::file, fmt::format("{}: the {} file cannot be read: {}", file.string(), what,
                                                 std::generic_category().message(reason)));
@@ -46,6 +47,11 @@ std::string read_file(const std::filesystem::path& file, const std::string& what
     errno = 0;
     const std::size_t count = std::fread(block, 1, sizeof block, stream.get());
     text.append(block, count);
+    if (text.size() == count) {  // the first
+      const std::string_view begin(text);
+      const auto first = std::min(begin.find_first_not_of(" \t\r\n"), begin.size());
+      if (!begin.substr(first).starts_with(beginning)) return text;
+    }
     if (text.size() > limit) refuse_size(file, what, limit);
     if (count < sizeof block) {
       if (std::ferror(stream.get()) != 0) throw cannot_read(errno);

@@ -8,10 +8,13 @@
 #include <cstddef>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace rheo {
 
-// `what` names the kind of file in messages: "scene", "mesh", "table".
-std::string read_file(const std::filesystem::path& file, const std::string& what, std::size_t limit);
+// `what` names the kind of file in messages: "scene", "mesh", "table". Of a file that does not begin with
+// `beginning` (blanks apart) only the first piece is read: enough to say what it is not.
+std::string read_file(const std::filesystem::path& file, const std::string& what, std::size_t limit,
+                      std::string_view beginning = {});
 
 }  // namespace rheo
