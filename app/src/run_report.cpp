@@ -12,6 +12,7 @@
 
 #include "option_values.hpp"
 #include "rheo/io/atomic_file.hpp"
+#include "rheo/versions.hpp"
 
 namespace app {
 namespace {
@@ -70,10 +71,13 @@ Json toolchain() {
 }
 
 Json libraries() {
-  return {{"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
-          {"CLI11", CLI11_VERSION},
-          {"nlohmann_json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
-                                        NLOHMANN_JSON_VERSION_PATCH)}};
+  Json json = {
+      {"fmt", fmt::format("{}.{}.{}", FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+      {"CLI11", CLI11_VERSION},
+      {"nlohmann_json", fmt::format("{}.{}.{}", NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+                                    NLOHMANN_JSON_VERSION_PATCH)}};
+  for (const auto& [name, version] : rheo::library_versions()) json[name] = version;
+  return json;
 }
 
 Json read_files_of(const std::vector<Fingerprint>& files) {

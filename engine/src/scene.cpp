@@ -85,6 +85,55 @@ void check_constraint(const Constraint& constraint, const Mesh& mesh) {
   }
 }
 
+// What prepare() made sure of and a later change by hand may have undone, as far as a step would go wrong.
+void check_mesh(const Mesh& mesh) {
+  const std::string where = "[mesh]";
+  const char* const remedy = "; call prepare() after a change of the mesh";
+  if (!mesh.edge_groups.contains("boundary")) refuse(where, fmt::format("no group \"boundary\"{}", remedy));
+  std::vector<char> used(mesh.points.size(), 0);
+  for (int t = 0; t < mesh.triangle_count(); ++t) {
+    for (const int node : mesh.triangles[static_cast<std::size_t>(t)]) {
+      if (node < 0 || node >= mesh.node_count()) {
+        refuse(where, fmt::format("triangle {}: node {}: the nodes are numbered 0 to {}{}", t, node,
+                                  mesh.node_count() - 1, remedy));
+      }
+      used[static_cast<std::size_t>(node)] = 1;
+    }
+    if (!(signed_area(mesh, t) > 0.0))
+      refuse(where, fmt::format("triangle {}: no positive area (counter-clockwise){}", t, remedy));
+  }
+  const auto idle = std::find(used.begin(), used.end(), 0);
+  if (idle != used.end())
+    refuse(where, fmt::format("node {}: in no triangle{}", idle - used.begin(), remedy));
+}
+
+// Every edge of the tractions is a side of some triangle.
+void check_edges(const std::vector<Traction>& tractions, const Mesh& mesh) {
+  std::vector<char> loaded(mesh.points.size(), 0);
+  std::set<Edge> missing;
+  for (const Traction& traction : tractions) {
+    for (const Edge& edge : traction.edges) {
+      missing.insert({std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
+      for (const int node : edge) loaded[static_cast<std::size_t>(node)] = 1;
+    }
+  }
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3 && !missing.empty(); ++k) {
+      const int a = t[k], b = t[(k + 1) % 3];
+      if (loaded[static_cast<std::size_t>(a)] && loaded[static_cast<std::size_t>(b)])
+        missing.erase({std::min(a, b), std::max(a, b)});
+    }
+  }
+  if (missing.empty()) return;
+  const Edge edge = *missing.begin();
+  for (const Traction& traction : tractions) {
+    for (const Edge& e : traction.edges) {
+      if (std::minmax(e[0], e[1]) == std::minmax(edge[0], edge[1]))
+        refuse(traction.where, fmt::format("edge ({}, {}): no triangle has it", e[0], e[1]));
+    }
+  }
+}
+
 void check_traction(const Traction& traction, const Mesh& mesh) {
   if (traction.edges.empty()) refuse(traction.where, "no edges: at least one is needed");
   for (const Edge& edge : traction.edges) {
@@ -128,7 +177,8 @@ void validate(const TimeSettings& time) {
   positive("frame_rate", time.frame_rate, "outputs per second");
   if (time.baumgarte != 0.0) positive("baumgarte", time.baumgarte, "1/s");
   if (const double outputs = time.duration * time.frame_rate; !(outputs <= max_outputs)) {
-    refuse(where, fmt::format("frame_rate = {}: {:.3g} outputs in {} s; at most {:.0e} are allowed",
+    refuse(where, fmt::format("frame_rate = {}: {:.3g} outputs in {} s; at most {:.0e} are allowed: "
+                              "lower it, or the duration",
                               time.frame_rate, outputs, time.duration, max_outputs));
   }
   if (!(time.step >= 0.0) || !std::isfinite(time.step)) {
@@ -177,6 +227,7 @@ void validate(const PictureSettings& picture) {
 void validate(const Scene& scene) {
   const Mesh& mesh = scene.mesh;
   if (mesh.triangles.empty()) refuse("[mesh]", "the mesh has no triangles: at least one is needed");
+  check_mesh(mesh);
   scene.material.validate("[material]");
   if (!usable(scene.body_acceleration)) {
     refuse("[body_force]", fmt::format("acceleration = [{}, {}]: {} (m/s^2) are needed",
@@ -193,6 +244,7 @@ void validate(const Scene& scene) {
   }
   for (const Constraint& constraint : scene.constraints) check_constraint(constraint, mesh);
   for (const Traction& traction : scene.tractions) check_traction(traction, mesh);
+  check_edges(scene.tractions, mesh);
   check_probes(scene.probes, mesh);
   validate(scene.time);
   validate(scene.picture);

@@ -14,7 +14,7 @@ struct Output {
 
 Output haptic_loop(const std::string& arguments) {
   Output output;
-  FILE* pipe = popen((std::string(RHEO_HAPTIC_LOOP) + " " + arguments + " 2>&1").c_str(), "r");
+  FILE* pipe = popen(("'" RHEO_HAPTIC_LOOP "' " + arguments + " 2>&1").c_str(), "r");
   if (pipe == nullptr) return output;
   char buffer[4096];
   while (std::fgets(buffer, sizeof buffer, pipe) != nullptr) output.text += buffer;

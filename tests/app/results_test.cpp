@@ -149,7 +149,7 @@ TEST_F(Results, RunJsonNamesTheFilesThatTheSceneReads) {
   EXPECT_EQ(json.at("read_files").at(0).at("fnv1a_64"), fmt::format("{:016x}", hash));
   EXPECT_EQ(json.at("working_directory"), fs::canonical(folder()).string());
   EXPECT_EQ(json.at("settings").at("step_asked"), "auto");
-  for (const char* library : {"fmt", "CLI11", "nlohmann_json"})
+  for (const char* library : {"fmt", "CLI11", "nlohmann_json", "Eigen", "tomlplusplus"})
     EXPECT_THAT(json.at("libraries").at(library).get<std::string>(), HasSubstr("."));
   EXPECT_EQ(json.at("toolchain").at("compiler"), json.at("compiler"));
 }

@@ -44,6 +44,18 @@ TEST(Scene, EveryRefusalNamesItsPlaceAndValue) {
   const double nan = std::nan("");
   const std::vector<Case> cases = {
       {"[mesh]", "no triangles", [](Scene& s) { s.mesh = {}; }},
+      {"[mesh]", "triangle 0: node 55: the nodes are numbered 0 to 9",
+       [](Scene& s) { s.mesh.triangles[0][0] = 55; }},
+      {"[mesh]", "triangle 0: no positive area", [](Scene& s) { s.mesh.points[0].y = 7.0; }},
+      {"[mesh]", "node 10: in no triangle",
+       [](Scene& s) {
+         s.mesh.points.push_back({3.0, 3.0});
+       }},
+      {"[mesh]", "boundary", [](Scene& s) { s.mesh.edge_groups.clear(); }},
+      {"traction:", "edge (9, 0): no triangle has it",
+       [](Scene& s) {
+         s.tractions[0].edges = {{4, 9}, {9, 0}};
+       }},
       {"[material]", "density = 0", [](Scene& s) { s.material.density = 0.0; }},
       {"[body_force]", "nan", [&](Scene& s) { s.body_acceleration.y = nan; }},
       {"fix:", "no nodes", [](Scene& s) { s.fixes[0].nodes.clear(); }},

@@ -20,8 +20,8 @@
 //          makes some again at its events; session() and the vectors of active tractions.
 // Calls    of the system: on one thread none. On several, those by which OpenMP's threads wait for each other
 //          and wake each other (futex, sched_yield), from the second tick on. Where another program has a
-//          thread's processor a tick can take milliseconds; one thread then makes the next ones alone, so that
-//          this happens in few of them. Excluded only by one thread (SimulationOptions::threads = 1).
+//          thread's processor a tick can take milliseconds; one thread then makes the next ones alone, so
+//          that this happens in few of them. Excluded only by one thread (SimulationOptions::threads = 1).
 // Errors   the constructor: Error::Kind::input as Simulation's, handles with nodes that are not there,
 //          constraints = "baumgarte" (hands hold exactly). Later: false for what cannot be done (not finite,
 //          beyond the capacity, not grabbed), a Divergence from tick, never an exception.

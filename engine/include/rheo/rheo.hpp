@@ -17,3 +17,4 @@
 #include "rheo/shapes.hpp"
 #include "rheo/simulation.hpp"
 #include "rheo/stability.hpp"
+#include "rheo/versions.hpp"

@@ -194,4 +194,8 @@ std::string written(const TomlValue& value) {
   return text + "]";
 }
 
+std::string toml_version() {
+  return fmt::format("{}.{}.{}", TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH);
+}
+
 }  // namespace rheo

@@ -42,4 +42,7 @@ TomlValue parse_toml(std::string_view text, const std::string& name);
 // As it would be written, on one line, cut short: 7, "left", [0.5, "x", ...].
 std::string written(const TomlValue& value);
 
+// The version of toml++ that reads.
+std::string toml_version();
+
 }  // namespace rheo
