@@ -229,6 +229,7 @@ void validate(const Scene& scene) {
   if (mesh.triangles.empty()) refuse("[mesh]", "the mesh has no triangles: at least one is needed");
   check_mesh(mesh);
   scene.material.validate("[material]");
+  if (!scene.regions.empty()) refuse("[[region]]", "several materials in one mesh: not in this version");
   if (!usable(scene.body_acceleration)) {
     refuse("[body_force]", fmt::format("acceleration = [{}, {}]: {} (m/s^2) are needed",
                                        scene.body_acceleration.x, scene.body_acceleration.y, usable_numbers));

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
@@ -128,12 +129,30 @@ struct PictureSettings {
   std::array<int, 2> size{1280, 720};     // pixels
 };
 
+// A further material in the mesh. All materials of a scene have the same kind of mass.
+struct Region {
+  std::string name;
+  Material material;
+  MaterialOrigin origin;
+  std::string where;  // for messages
+};
+
+// One of several bodies: separate pieces of the scene's mesh, its nodes and triangles in a row.
+struct BodyPart {
+  std::string name;
+  std::int32_t first_node = 0, node_count = 0;
+  std::int32_t first_triangle = 0, triangle_count = 0;
+};
+
 struct Scene {
   std::string title;
-  Mesh mesh;  // prepared
+  Mesh mesh;  // prepared; of all bodies
   Material material;
-  MaterialOrigin origin;   // of the material, for reports
-  Vec2 body_acceleration;  // [m/s^2]
+  MaterialOrigin origin;                         // of the material, for reports
+  std::vector<Region> regions;                   // materials 1, 2, ... beside `material`, which is 0
+  std::vector<std::int32_t> region_of_triangle;  // which of them each triangle is of; empty: all 0
+  std::vector<BodyPart> bodies;                  // empty: one body
+  Vec2 body_acceleration;                        // [m/s^2]
   std::vector<Fix> fixes;
   std::vector<Move> moves;
   std::vector<Constraint> constraints;
