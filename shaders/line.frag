@@ -1,10 +1,13 @@
 precision highp float;
 
 uniform vec4 ink;
+uniform sampler2D colors;   // 256 x 1
+uniform float colored;      // 1: by the scalar, 0: ink
 uniform float half_width;  // pixels
 uniform float dash;        // period of the dashes in pixels; 0: solid
 
 in vec2 position;
+in float value;
 flat in vec2 first;
 flat in vec2 second;
 flat in vec2 third;
@@ -28,5 +31,7 @@ void main() {
     float phase = abs(fract((start + s) / dash) - 0.5) * dash;  // from the middle of a dash, pixels
     alpha *= clamp(dash * 0.29 + 0.5 - phase, 0.0, 1.0);
   }
-  color = vec4(ink.rgb, ink.a * alpha);
+  float u = clamp(value, 0.0, 1.0) * (255.0 / 256.0) + 0.5 / 256.0;
+  vec3 rgb = colored > 0.5 ? texture(colors, vec2(u, 0.5)).rgb : ink.rgb;
+  color = vec4(rgb, ink.a * alpha);
 }

@@ -12,6 +12,7 @@ in ivec3 ends;    // the edge's nodes, and the end of the edge that follows; -1:
 in float along;   // length of the boundary before this edge, reference units
 
 out vec2 position;
+out float value;  // colour coordinate
 flat out vec2 first;
 flat out vec2 second;
 flat out vec2 third;
@@ -34,6 +35,7 @@ void main() {
   bool at_b = k == 1 || k == 2 || k == 4;
   bool left = k == 2 || k == 4 || k == 5;
   position = (at_b ? b + t * reach : a - t * reach) + (left ? n : -n) * reach;
+  value = at_b ? nb.z : na.z;
   first = a;
   second = b;
   third = ends.z >= 0 ? node(ends.z).xy * view.xy + view.zw : b;

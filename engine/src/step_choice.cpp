@@ -12,8 +12,6 @@
 namespace rheo {
 namespace {
 
-constexpr double most_steps = 1e15;  // counted exactly by a double, and beyond any patience
-
 // Refuses with the place in the scene file where there is one.
 [[noreturn]] void refuse(const Scene& scene, const std::string& text) {
   const std::string& where = scene.time.where;
@@ -51,12 +49,12 @@ StepLimits choose_step(const Scene& scene, const Spectrum& spectrum, std::string
   }
   const double share = takes_long_steps(settings.integrator) ? 1.0 : options.stable_share;
   const double bound = given ? settings.step : share * limit;
-  if (!(settings.refinement * settings.duration / bound < most_steps)) {
+  if (!(settings.refinement * settings.duration / bound <= max_steps)) {
     refuse(scene,
-           fmt::format("step = {}: {:g} s needs {:.2g} steps for the duration of {:g} s, at most {:g} can be "
-                       "counted: check the material's moduli and density and the mesh's size",
+           fmt::format("step = {}: {:g} s needs {:.2g} steps for the duration of {:g} s, at most {:g} are "
+                       "allowed: check the material's moduli and density, the mesh's size and baumgarte",
                        given ? fmt::format("{:g}", settings.step) : "\"auto\"", bound,
-                       settings.duration / bound, settings.duration, most_steps));
+                       settings.duration / bound, settings.duration, max_steps));
   }
   return {limit, bound};
 }

@@ -31,8 +31,11 @@ void uniform_color(const Gl& gl, GLint where, Color c) {
   gl.Uniform4f(where, c.r / 255.0f, c.g / 255.0f, c.b / 255.0f, c.a / 255.0f);
 }
 
-// Twice the area by the longest side.
-double smallest_height(std::span<const double> points, std::span<const int> triangle) {
+struct Shape {
+  double area = 0, smallest_height = 0;
+};
+
+Shape shape_of(std::span<const double> points, std::span<const int> triangle) {
   const auto at = [&](std::size_t k) {
     const auto i = 2 * static_cast<std::size_t>(triangle[k]);
     return std::array<double, 2>{points[i], points[i + 1]};
@@ -42,7 +45,8 @@ double smallest_height(std::span<const double> points, std::span<const int> tria
   const auto [cx, cy] = at(2);
   const double longest =
       std::max({std::hypot(bx - ax, by - ay), std::hypot(cx - bx, cy - by), std::hypot(ax - cx, ay - cy)});
-  return longest > 0 ? std::abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)) / longest : 0.0;
+  const double twice = std::abs((bx - ax) * (cy - ay) - (by - ay) * (cx - ax));
+  return {twice / 2, longest > 0 ? twice / longest : 0.0};
 }
 
 // Where a value lies in the range, 0..1. A range without extent, or without numbers, gives the low colour.
@@ -146,7 +150,9 @@ void MeshPass::upload_triangles(std::span<const int> triangles, std::span<const 
   std::vector<GLint> corners;
   corners.reserve(triangles.size() * 3);
   for (std::size_t t = 0; t + 2 < triangles.size(); t += 3) {
-    largest_height_ = std::max(largest_height_, smallest_height(rest, triangles.subspan(t, 3)));
+    const Shape shape = shape_of(rest, triangles.subspan(t, 3));
+    largest_height_ = std::max(largest_height_, shape.smallest_height);
+    if (std::isfinite(shape.area)) area_ += shape.area;
     for (std::size_t k = 0; k < 3; ++k) {
       for (std::size_t s = 0; s < 3; ++s) {
         const int node = triangles[t + (k + s) % 3];
@@ -190,7 +196,7 @@ void MeshPass::upload_boundary(const BoundaryChains& boundary, std::span<const d
         vertices.push_back(
             {{static_cast<GLint>(a), static_cast<GLint>(b), next}, static_cast<GLfloat>(along)});
       const double size = std::hypot(rest[2 * b] - rest[2 * a], rest[2 * b + 1] - rest[2 * a + 1]);
-      if (std::isfinite(size)) along += size;
+      if (std::isfinite(size)) along += size, boundary_length_ += size;
     }
   }
   edge_vertex_count_ = static_cast<GLsizei>(vertices.size());
@@ -217,11 +223,15 @@ void MeshPass::place(const GlProgram& program, const Camera& camera, const NodeT
                 2.0f / static_cast<float>(height_), -1.0f, -1.0f);
 }
 
-void MeshPass::set_fill(const GlProgram& program) const {
+void MeshPass::bind_colors(const GlProgram& program, float colored) const {
   gl_.ActiveTexture(GL_TEXTURE1);
   gl_.BindTexture(GL_TEXTURE_2D, colors_.id());
   gl_.Uniform1i(program.uniform("colors"), 1);
-  gl_.Uniform1f(program.uniform("colored"), colored_);
+  gl_.Uniform1f(program.uniform("colored"), colored);
+}
+
+void MeshPass::set_fill(const GlProgram& program) const {
+  bind_colors(program, colored_);
   uniform_color(gl_, program.uniform("plain"), theme::plain_fill);
 }
 
@@ -244,12 +254,20 @@ void MeshPass::fill(const Camera& camera, float line_width) const {
   gl_.DrawArrays(GL_TRIANGLES, 0, corner_count_);
 }
 
-void MeshPass::lines(const Camera& camera, const LineStyle& style, const NodeTexture& nodes) const {
+void MeshPass::outline(const Camera& camera, const LineStyle& style) const {
+  // A strip of width d and length l has the area d l within a boundary of 2 l.
+  const double width = boundary_length_ > 0 ? 2 * area_ / boundary_length_ * camera.scale : 0.0;
+  lines(camera, style, nodes_, width < 1.5 * style.width ? colored_ : 0.0f);
+}
+
+void MeshPass::lines(const Camera& camera, const LineStyle& style, const NodeTexture& nodes,
+                     float colored) const {
   if (edge_vertex_count_ == 0) return;
   place(line_program_, camera, nodes);
   gl_.Uniform1f(line_program_.uniform("half_width"), style.width / 2);
   gl_.Uniform1f(line_program_.uniform("dash"), style.dash);
   uniform_color(gl_, line_program_.uniform("ink"), style.color);
+  bind_colors(line_program_, colored);
   gl_.Enable(GL_BLEND);
   gl_.BlendEquation(GL_FUNC_ADD);
   gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);

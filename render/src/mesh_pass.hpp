@@ -33,8 +33,9 @@ class MeshPass {
   void set_nodes(std::span<const double> positions, std::span<const double> scalar);
   std::int64_t uploads() const { return uploads_; }  // by set_nodes
   void fill(const Camera& camera, float line_width) const;
-  void outline(const Camera& camera, const LineStyle& style) const { lines(camera, style, nodes_); }
-  void rest_outline(const Camera& camera, const LineStyle& style) const { lines(camera, style, rest_); }
+  // In the style's colour; in the scalar's where the body is so slender that it would hide all of it.
+  void outline(const Camera& camera, const LineStyle& style) const;
+  void rest_outline(const Camera& camera, const LineStyle& style) const { lines(camera, style, rest_, 0); }
 
  private:
   struct NodeTexture {
@@ -49,9 +50,10 @@ class MeshPass {
   bool upload(NodeTexture& nodes, std::span<const double> positions, std::span<const double> scalar);
   void upload_colors() const;
   void upload_triangles(std::span<const int> triangles, std::span<const double> rest);
+  void bind_colors(const GlProgram& program, float colored) const;
   void set_fill(const GlProgram& program) const;
   void upload_boundary(const BoundaryChains& boundary, std::span<const double> rest);
-  void lines(const Camera& camera, const LineStyle& style, const NodeTexture& nodes) const;
+  void lines(const Camera& camera, const LineStyle& style, const NodeTexture& nodes, float colored) const;
   void place(const GlProgram& program, const Camera& camera, const NodeTexture& nodes) const;
 
   const Gl& gl_;
@@ -76,7 +78,9 @@ class MeshPass {
   std::vector<float> staging_;
   GLsizei corner_count_ = 0;
   GLsizei edge_vertex_count_ = 0;
-  double largest_height_ = 0;  // of all triangles at rest, each one's smallest [m]
+  double largest_height_ = 0;   // of all triangles at rest, each one's smallest [m]
+  double area_ = 0;             // at rest [m^2]
+  double boundary_length_ = 0;  // at rest [m]
   float colored_ = 0;
   std::int64_t uploads_ = 0;
 };

@@ -219,6 +219,18 @@ TEST(Refused, DependentConstraints) {
   }
 }
 
+TEST(Refused, BaumgarteThatWantsMoreStepsThanAnyRunTakes) {
+  Scene scene = paper_beam(Mass::lumped);
+  scene.constraints.push_back({{{9, Axis::x, 1.0}, {4, Axis::x, -1.0}}, 0.0, "tie"});
+  scene.time.baumgarte = 1e12;
+  try {
+    Simulation simulation(scene);
+    FAIL() << "accepted";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("baumgarte"), std::string::npos) << error.what();
+  }
+}
+
 TEST(Refused, ConstraintOnHeldNodesOnly) {
   Scene scene = paper_beam(Mass::lumped);
   scene.constraints.push_back(

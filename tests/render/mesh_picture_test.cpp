@@ -131,6 +131,29 @@ TEST_F(MeshPictures, LinesOfADenseMeshFadeInsteadOfTurningItBlack) {
   EXPECT_GT(darkest_inside(dense), 215) << "only the fill is left, blue 226";
 }
 
+TEST_F(MeshPictures, ABodyThinnerThanItsOutlineStillShowsItsColour) {
+  Body body = bodies::rectangle(1, 1e-4, 41, 2);
+  render::MeshLayout layout = coloured(body);
+  layout.range = {0, 1};
+  for (std::size_t i = 0; i < body.nodes(); ++i) body.scalar[i] = body.rest[2 * i];
+  const Image image = draw(layout, body.frame());
+  const Box box = support::find(image, [](int x, int y, const Pixel& p) {
+    return y > heading && x < width - 70 && support::distance(p, support::paper) > 20;
+  });
+  EXPECT_LE(box.height(), 5);
+  for (const double t : {0.1, 0.5, 0.9}) {
+    const int x = box.x0 + static_cast<int>(std::lround(t * (box.width() - 1)));
+    int nearest = 765;  // one of the line's rows has its full strength
+    for (int y = box.y0; y <= box.y1; ++y)
+      nearest = std::min(nearest, support::distance(at(image, x, y), map_colour(t)));
+    EXPECT_LT(nearest, 25) << t;
+  }
+  const Image bare = draw(body.layout(), body.frame());
+  const Pixel ink = at(bare, width / 2, (drawn(bare).y0 + drawn(bare).y1) / 2);
+  EXPECT_LT(ink[0], 150);
+  EXPECT_LT(std::abs(ink[0] - ink[2]), 20) << "without a scalar: ink";
+}
+
 TEST_F(MeshPictures, PositionsThatAreNotFiniteDropTheirTrianglesOnly) {
   Body body = bodies::rectangle(2, 1, 3, 2);
   const render::MeshLayout layout = coloured(body);

@@ -156,9 +156,9 @@ TEST(BadScene, MissingTablesAreNamed) {
   const std::string mesh = "[mesh]\nshape = \"disk\"\nradius = 1\nrings = 1\n";
   const std::string material =
       "[material]\nlambda_ela = 1\nmu_ela = 1\nlambda_vis = 1\nmu_vis = 1\ndensity = 1\n";
-  EXPECT_THAT(message("[time]\nduration = 1\n"), HasSubstr("bad.toml:1: [mesh] is missing: "));
-  EXPECT_THAT(message(mesh.c_str()), HasSubstr("bad.toml:1: [material] is missing: lambda_ela"));
-  EXPECT_THAT(message((mesh + material).c_str()), HasSubstr("bad.toml:1: [time] is missing: duration"));
+  EXPECT_THAT(message("[time]\nduration = 1\n"), HasSubstr("bad.toml:1: [mesh] is missing; needed: "));
+  EXPECT_THAT(message(mesh.c_str()), HasSubstr("bad.toml:1: [material] is missing; needed: lambda_ela"));
+  EXPECT_THAT(message((mesh + material).c_str()), HasSubstr("bad.toml:1: [time] is missing; needed: duration"));
 }
 
 struct BadValue {

@@ -72,7 +72,7 @@ class SceneReader {
   const TomlValue& required_value_of(const std::string& name, const char* meaning) const {
     if (root_.find(name) == nullptr) {
       throw Error(Error::Kind::input,
-                  fmt::format("{}:1: [{}] is missing: {} is needed", file_, name, meaning));
+                  fmt::format("{}:1: [{}] is missing; needed: {}", file_, name, meaning));
     }
     return value_of(name);
   }
