@@ -1,5 +1,5 @@
-// The frames of the picture benchmarks: a beam that is pulled, another position in every frame, or one that
-// stands still.
+// The frames of the picture benchmarks: a beam that is pulled, or a disk that is squeezed and fills the
+// picture with colour; another position in every frame, or one that stands still.
 #pragma once
 
 #include <cmath>
@@ -12,15 +12,27 @@
 namespace bench {
 
 enum class Colour { shown, none };
+enum class Subject { beam, disk };
 
 class Frames {
  public:
   // About `triangles` of them, with colour, lines, hatches, arrows, bar and text.
-  Frames(int triangles, int width, int height, Colour colour = Colour::shown)
+  Frames(int triangles, int width, int height, Colour colour = Colour::shown, Subject subject = Subject::beam)
       : context_(render::open_context(render::Backend::automatic, width, height)) {
-    const int ny = std::max(2, static_cast<int>(std::sqrt(triangles / 8.0)) + 1), nx = 4 * (ny - 1) + 1;
-    rest_ = bodies::pulled_beam(nx, ny, 1.0);
-    full_ = bodies::pulled_beam(nx, ny, 2.2);
+    if (subject == Subject::beam) {
+      const int ny = std::max(2, static_cast<int>(std::sqrt(triangles / 8.0)) + 1), nx = 4 * (ny - 1) + 1;
+      rest_ = bodies::pulled_beam(nx, ny, 1.0);
+      full_ = bodies::pulled_beam(nx, ny, 2.2);
+    } else {
+      rest_ = bodies::disk(1.0, std::max(1, static_cast<int>(std::sqrt(triangles / 6.0))));
+      full_ = rest_;
+      for (std::size_t i = 0; i < full_.nodes(); ++i) {
+        double &x = full_.positions[2 * i], &y = full_.positions[2 * i + 1];
+        full_.scalar[i] = 0.8 * (0.5 + 0.3 * std::sin(5 * x) * std::cos(4 * y) + 0.2 * x * y);
+        y *= 0.8;
+        x *= 1.15;
+      }
+    }
     if (colour == Colour::none) full_.scalar.clear();
     body_ = full_;
     render::MeshLayout layout = full_.layout();

@@ -30,12 +30,23 @@ fs::path frame_file(const fs::path& directory, int i) {
   return directory / ("frame_" + std::to_string(i % different_files) + ".png");
 }
 
+// Arguments: triangles; 0 for the beam, 1 for the disk that fills the picture with colour.
 void sizes(benchmark::internal::Benchmark* b) {
-  b->ArgName("triangles")->Arg(8)->Arg(1000)->Arg(10000)->UseRealTime()->Unit(benchmark::kMillisecond);
+  b->ArgNames({"triangles", "disk"})->UseRealTime()->Unit(benchmark::kMillisecond);
+  for (const int disk : {0, 1}) {
+    for (const int triangles : {8, 1000, 10000}) {
+      if (disk == 0 || triangles > 8) b->Args({triangles, disk});
+    }
+  }
+}
+
+bench::Frames frames_of(const benchmark::State& state) {
+  return {static_cast<int>(state.range(0)), width, height, bench::Colour::shown,
+          state.range(1) != 0 ? bench::Subject::disk : bench::Subject::beam};
 }
 
 void SequenceByStbDefaults(benchmark::State& state) {
-  bench::Frames frames(static_cast<int>(state.range(0)), width, height);
+  bench::Frames frames = frames_of(state);
   const fs::path directory = folder();
   render::Image image;
   int i = 0;
@@ -48,7 +59,7 @@ void SequenceByStbDefaults(benchmark::State& state) {
 BENCHMARK(SequenceByStbDefaults)->Apply(sizes);
 
 void SequenceOnOneThread(benchmark::State& state) {
-  bench::Frames frames(static_cast<int>(state.range(0)), width, height);
+  bench::Frames frames = frames_of(state);
   const fs::path directory = folder();
   render::Image image;
   int i = 0;
@@ -62,7 +73,7 @@ BENCHMARK(SequenceOnOneThread)->Apply(sizes);
 
 template <int encoders>
 void SequenceWithEncoders(benchmark::State& state) {
-  bench::Frames frames(static_cast<int>(state.range(0)), width, height);
+  bench::Frames frames = frames_of(state);
   const fs::path directory = folder();
   render::PngSequence sequence(encoders);
   int i = 0;
@@ -79,22 +90,21 @@ BENCHMARK(SequenceWithEncoders<2>)->Apply(sizes);
 
 // The bound for every sequence.
 void SequenceWithoutFiles(benchmark::State& state) {
-  bench::Frames frames(static_cast<int>(state.range(0)), width, height);
+  bench::Frames frames = frames_of(state);
   render::Image image;
   for (auto _ : state) frames.draw(image);
   state.SetItemsProcessed(state.iterations());
 }
 BENCHMARK(SequenceWithoutFiles)->Apply(sizes);
 
-render::Image one_frame(int triangles) {
-  bench::Frames frames(triangles, width, height);
+render::Image one_frame(bench::Frames frames) {
   render::Image image;
   for (int i = 0; i < 10; ++i) frames.draw(image);
   return image;
 }
 
 void EncodeByStbDefaults(benchmark::State& state) {
-  const render::Image image = one_frame(static_cast<int>(state.range(0)));
+  const render::Image image = one_frame(frames_of(state));
   std::size_t size = 0;
   for (auto _ : state) benchmark::DoNotOptimize(size = encode_png_by_stb(image));
   state.counters["kB"] = static_cast<double>(size) / 1000;
@@ -102,7 +112,7 @@ void EncodeByStbDefaults(benchmark::State& state) {
 BENCHMARK(EncodeByStbDefaults)->Apply(sizes);
 
 void EncodeByOurs(benchmark::State& state) {
-  const render::Image image = one_frame(static_cast<int>(state.range(0)));
+  const render::Image image = one_frame(frames_of(state));
   render::PngEncoder encoder;
   std::size_t size = 0;
   for (auto _ : state) benchmark::DoNotOptimize(size = encoder.encode(image).size());
@@ -113,7 +123,7 @@ BENCHMARK(EncodeByOurs)->Apply(sizes);
 // Why ours is as it is: rows as RGB or RGBA, unfiltered or as differences to the row above, over libdeflate's
 // levels.
 void DeflateRows(benchmark::State& state) {
-  const render::Image image = one_frame(1000);
+  const render::Image image = one_frame({1000, width, height});
   const auto level = static_cast<int>(state.range(0));
   const auto channels = static_cast<std::size_t>(state.range(1));
   const bool up = state.range(2) != 0;
