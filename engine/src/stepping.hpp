@@ -40,6 +40,10 @@ class Stepping {
   const EnergyBook& book() const { return book_; }
   // Whether the quadrature over a step gives all of the work, and of what is dissipated.
   bool books_work() const;
+  bool knows_work() const;
+  bool is_beyond_limit() const { return limits_.bound > limits_.stable; }  // as the user allowed
+  double explained_energy() const;
+  double cancelled_way();
   bool books_dissipated() const;
   Readings& readings() { return readings_; }
 
@@ -74,6 +78,7 @@ class Stepping {
   double time_ = 0.0;
   double largest_step_ = 0.0;
   std::vector<double> allowed_violation_;
+  double cancelled_way_ = 0.0;  // [m]
   int excuses_ = 0;  // for energy beyond the work by quadrature
   std::optional<Divergence> diverged_;
 };
