@@ -68,10 +68,6 @@ MatrixR root_of(const Eigen::MatrixXd& j) {
   return root;
 }
 
-const Material& material_of(const Scene& scene, std::size_t region) {
-  return region == 0 ? scene.material : scene.regions[region - 1].material;
-}
-
 Operator operator_of(const Scene& scene) {
   std::vector<DenseMatrices> by_region;
   for (std::size_t r = 0; r <= scene.regions.size(); ++r) {

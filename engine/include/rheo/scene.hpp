@@ -165,6 +165,13 @@ struct Scene {
   std::vector<std::string> files;  // that the scene file names and the reader opened, each once
 };
 
+// Material 0, 1, ... of a scene.
+inline const Material& material_of(const Scene& scene, std::size_t number) {
+  return number == 0 ? scene.material : scene.regions[number - 1].material;
+}
+// Of the material with the most.
+std::size_t most_branches(const Scene& scene);
+
 // Limits against slips of the pen that would fill a disk or never end.
 inline constexpr double max_outputs = 1e7;                       // duration * frame_rate
 inline constexpr double max_steps = 1e12;                        // duration / step
