@@ -12,7 +12,12 @@ namespace {
 
 // Of all energy that ever went in: what is left below it cannot move the body by a rounding of its course.
 constexpr double energy_at_rest = 1e-32;
-constexpr double violation_allowed = 0.01;  // of a constraint's coefficients times the largest |u|
+constexpr double way_at_rest = 1e-14;  // of u under loads: some roundings (RestWatch)
+constexpr double tolerance_at_rest =
+    0.1;  // of the exponential integrator's, beside which less cannot be seen
+constexpr std::int64_t steps_between_looks = 64;  // a multiple of every stride
+constexpr std::int64_t steps_before_a_look = 16;  // where a stretch of steps begins
+constexpr double violation_allowed = 0.01;        // of a constraint's coefficients times the largest |u|
 // A pole that the step hardly resolves lets a violation swing to some multiple of its start before it decays.
 constexpr double violation_swing = 100.0;
 constexpr double motion_lag = 20.0;  // of a motion's way: what one step over all of it makes of it
@@ -55,6 +60,10 @@ Stepping::Stepping(const Scene& scene, const Model& model, Schedule& schedule, B
       limits_(limits),
       stride_(stride),
       readings_(model, body),
+      rest_(model.material, model.layout.part,
+            scene.time.integrator == IntegratorKind::exponential
+                ? std::max(way_at_rest, tolerance_at_rest * scene.time.tolerance)
+                : way_at_rest),
       holds_(model, scene.constraints.size()) {
   enter(0);
 }
@@ -89,6 +98,8 @@ void Stepping::enter(std::size_t i) {
 void Stepping::enter_from(double begin) {
   const bool first = !entered_;
   entered_ = true;
+  rest_.restart();
+  resting_ = false;
   schedule_.fill(index_, begin, next_);
   if (hands_ != nullptr && hands_->add_to(next_)) next_.solver = schedule_.solver_holding(index_, next_.held);
   if (holds_.change_owners(next_, hands_)) readings_.state();
@@ -143,23 +154,32 @@ void Stepping::note_motions() {
   }
 }
 
-// Nothing acts, nothing is moved, and what is left of the energy is nothing beside what went in.
-bool Stepping::at_rest() {
-  if (interval_.moving || !interval_.solver->columns().empty()) return false;
-  if (!(interval_.force.array() == 0.0).all() || !(interval_.force_rate.array() == 0.0).all()) return false;
-  const EnergySample& now = readings_.sample(time_);
-  return now.kinetic + now.stored <= energy_at_rest * book_.turnover();
+// Nothing is moved and nothing that acts changes; without loads, what is left of the energy is nothing beside
+// what went in; under loads or general constraints, RestWatch.
+bool Stepping::looks_at_rest() {
+  steps_since_look_ = 0;
+  if (interval_.moving || !(interval_.force_rate.array() == 0.0).all()) return false;
+  const bool general = !interval_.solver->columns().empty();
+  if (!general && (interval_.force.array() == 0.0).all()) {
+    const EnergySample& now = readings_.sample(time_);
+    return now.kinetic + now.stored <= energy_at_rest * book_.turnover();
+  }
+  const auto numbers = [](const VectorMap& x) {
+    return std::span<const double>(x.data(), static_cast<std::size_t>(x.size()));
+  };
+  return rest_.look(time_, numbers(readings_.u()), numbers(readings_.v()),
+                    general ? scene_.time.baumgarte : 0.0);
 }
 
 // (Residual forces of a rigid motion hold no energy and may still be large.)
-void Stepping::pass_at_rest(double end) {
+void Stepping::pass_at_rest(double end, std::int64_t steps) {
   const std::span<double> y = readings_.state();
   for (const BranchPart& branch : model_.layout.branches) {
     VectorMap(y.data() + branch.offset, static_cast<Eigen::Index>(model_.layout.part)) *=
         std::exp(-branch.rate * (end - time_));
   }
   body_.load(y);
-  body_.counters().steps_at_rest += steps_to(end);
+  body_.counters().steps_at_rest += steps;
   time_ = end;
   readings_.state_changed();
 }
@@ -171,11 +191,17 @@ std::int64_t Stepping::steps_to(double end) const {
 
 std::optional<Divergence> Stepping::run_segment(double end) {
   const double start = time_;
-  if (at_rest()) {
-    pass_at_rest(end);
+  const std::int64_t n = steps_to(end);
+  // Long steps cost many times what a look does.
+  const bool long_steps = takes_long_steps(scene_.time.integrator);
+  const std::int64_t stride = long_steps ? 1 : stride_;
+  const std::int64_t between_looks = long_steps ? 1 : steps_between_looks;
+  const bool looks = steps_since_look_ == 0 || steps_since_look_ >= steps_before_a_look || long_steps;
+  if (!resting_ && looks) resting_ = looks_at_rest();
+  if (resting_) {
+    pass_at_rest(end, n);
     return std::nullopt;
   }
-  const std::int64_t n = steps_to(end);
   const double h = (end - start) / static_cast<double>(n);
   largest_step_ = std::max(largest_step_, h);
   readings_.sample(time_);
@@ -187,13 +213,20 @@ std::optional<Divergence> Stepping::run_segment(double end) {
     }
     time_ = k + 1 == n ? end : start + static_cast<double>(k + 1) * h;
     ++body_.counters().steps;
+    ++steps_since_look_;
     body_.impose_prescribed(time_);
     readings_.state_changed();
-    if ((k + 1) % stride_ != 0 && k + 1 != n) continue;
+    if ((k + 1) % stride != 0 && k + 1 != n) continue;
     const EnergySample before = readings_.last_sample();
     const double since = readings_.last_sample_time();
     book_.book_step(before, readings_.sample(time_), time_ - since);
     if (auto found = check_divergence()) return found;
+    if ((k + 1) % between_looks != 0 || k + 1 == n) continue;
+    resting_ = looks_at_rest();
+    if (resting_) {
+      pass_at_rest(end, n - (k + 1));
+      break;
+    }
   }
   return std::nullopt;
 }
