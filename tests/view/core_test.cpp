@@ -9,6 +9,7 @@
 
 #include "rheo/io/scene_file.hpp"
 #include "rheo/io/scene_text.hpp"
+#include "view/history.hpp"
 #include "view/triple_buffer.hpp"
 #include "view_scene.hpp"
 
@@ -95,6 +96,8 @@ TEST(ViewCore, AnotherMaterialGoesOnFromTheSameShape) {
   core.aim({300.0, 0.0}, 1.0);
   run(core, 200);
   const double before = corner_x(core);
+  Display books;
+  core.show(books);
   rheo::Scene edited = core.scene();
   edited.material.mu_ela *= 3.0;
   ASSERT_TRUE(core.change(edited)) << core.message();
@@ -105,6 +108,10 @@ TEST(ViewCore, AnotherMaterialGoesOnFromTheSameShape) {
   core.show(display);
   EXPECT_EQ(display.hand.hold, Hold::push);
   EXPECT_NEAR(display.hand.traction.x, 300.0, 1.0);
+  // Its books go on; what the other stiffness makes of the same residual forces is not the hand's work.
+  EXPECT_GE(display.energies.work, books.energies.work);
+  EXPECT_GE(display.energies.dissipated, books.energies.dissipated);
+  EXPECT_NEAR(app::view::drift_of(display), 0.0, 1e-6 * display.energies.work);
   EXPECT_FALSE(core.session());
   EXPECT_THAT(core.message(), HasSubstr("changed"));
   core.reset();

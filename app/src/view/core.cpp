@@ -11,11 +11,13 @@
 namespace app::view {
 namespace {
 
-constexpr int handle_count = 4;        // a hand that lets go takes a tick until it is idle
-constexpr int record_room = 400000;    // keys of a session: minutes of dragging
-constexpr double look_every = 0.1;     // [s]
-constexpr double rest_after = 0.5;     // [s]
-constexpr double still_change = 1e-6;  // of the body's size, or of the largest w, in look_every
+constexpr int handle_count = 4;      // a hand that lets go takes a tick until it is idle
+constexpr int record_room = 400000;  // keys of a session: minutes of dragging
+constexpr double look_every = 0.1;   // [s]
+constexpr double rest_after = 0.5;   // [s]
+// What is slower than this cannot be seen: a colour step is 4e-3 of the largest w, a pixel 1e-3 of the size.
+constexpr double still_place = 1e-6;  // of the body's size, in look_every
+constexpr double still_w = 3e-5;      // of the largest w, likewise
 
 double size_of(const rheo::Mesh& mesh) {
   double low_x = rheo::forever, low_y = rheo::forever, high_x = -rheo::forever, high_y = -rheo::forever;
@@ -104,8 +106,12 @@ void Core::start(rheo::Scene scene, const rheo::SavedState* saved) {
   auto live = saved ? std::make_unique<rheo::Live>(*shared, settings, *saved)
                     : std::make_unique<rheo::Live>(*shared, settings);
   if (live_) steps_before_ += live_->simulation().counters().steps;
+  // A run that goes on with other parameters keeps its books.
+  const rheo::Energies old = live_ && saved ? energies() : rheo::Energies{};
   live_ = std::move(live);
   scene_ = std::move(shared);
+  dissipated_before_ = old.dissipated;
+  work_before_ = old.work;
   whole_ = saved == nullptr || saved->t == 0.0;
   ++run_;
 }
@@ -121,8 +127,15 @@ void Core::begin_again() {
   largest_w_ = 0.0;
   last_event_ = last_event_of(*scene_);
   size_ = size_of(scene_->mesh);
-  const rheo::Energies energies = live_->simulation().energies();
-  energy_start_ = energies.kinetic + energies.stored;
+  const rheo::Energies now = energies();
+  energy_start_ = now.kinetic + now.stored + now.dissipated - now.work;
+}
+
+rheo::Energies Core::energies() const {
+  rheo::Energies energies = live_->simulation().energies();
+  energies.dissipated += dissipated_before_;
+  energies.work += work_before_;
+  return energies;
 }
 
 void Core::say(std::string message) {
@@ -259,7 +272,7 @@ void Core::watch_for_rest() {
   both.insert(both.end(), simulation.w_mu().begin(), simulation.w_mu().end());
   const double changed = largest_change(both, looked_at_w_);
   const bool hand_moves = hold_ != Hold::nothing && !(at_ == target_);
-  if (moved > still_change * size_ || changed > still_change * largest_w_ || hand_moves || t < last_event_)
+  if (moved > still_place * size_ || changed > still_w * largest_w_ || hand_moves || t < last_event_)
     still_since_ = t;
   still_ = t - still_since_ >= rest_after;
 }
@@ -293,7 +306,7 @@ void Core::show(Display& display) {
     if (hold_ != Hold::nothing) display.hand.force = reading.force;
     if (hold_ == Hold::push) display.hand.traction = live_->traction(handle_);
   }
-  display.energies = simulation.energies();
+  display.energies = energies();
   display.energy_start = energy_start_;
   display.steps = steps_before_ + simulation.counters().steps;
   display.stable_step = simulation.stable_step();

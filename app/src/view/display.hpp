@@ -37,7 +37,7 @@ struct Display {
   HandDisplay hand;
 
   rheo::Energies energies;
-  double energy_start = 0.0;  // kinetic + stored where dissipated and work began to count
+  double energy_start = 0.0;  // their balance where the parameters of now began
   double w_lambda_norm = 0.0, w_mu_norm = 0.0;
 
   std::int64_t steps = 0;     // since the program began

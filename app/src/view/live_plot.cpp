@@ -87,9 +87,15 @@ void live_plot(const char* title, const char* unit, std::span<const double> t, s
   const double room = 0.06 * (high - low);
   const std::string heading = fmt::format("{} [{}]", title, unit);
   const float first = ImGui::CalcTextSize(heading.c_str()).x + 0.8f * text;
-  float needed = first;
-  for (const Curve& curve : curves) needed += 1.9f * text + ImGui::CalcTextSize(curve.name).x;
-  const float rows = needed > size.x + 0.7f * text ? 2.0f : 1.0f;  // of the legend
+  float rows = 1.0f, end = first;  // of the legend
+  for (const Curve& curve : curves) {
+    const float width = ImGui::CalcTextSize(curve.name).x;
+    if (end + 1.2f * text + width > size.x) {
+      ++rows;
+      end = 3.4f * text;
+    }
+    end += 1.9f * text + width;
+  }
   Frame frame{{corner.x + 3.4f * text, corner.y + (0.35f + 1.15f * rows) * text},
               {corner.x + size.x - 0.6f * text, corner.y + size.y - 1.5f * text},
               t.empty() ? 0.0 : t.front(),

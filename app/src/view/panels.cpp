@@ -124,7 +124,7 @@ void Ui::draw_overlay() {
                              force);
     }
     const double newton = std::hypot(d.hand.force.x, d.hand.force.y);
-    const ImVec2 at{b.x + 0.9f * text, b.y + 0.5f * text};
+    const ImVec2 at{b.x + 0.9f * text, b.y + 0.9f * text};
     if (mode_ == Hold::push)
       plate(at,
             fmt::format("push {} ({})", with_unit(std::hypot(d.hand.traction.x, d.hand.traction.y), "Pa"),
@@ -382,7 +382,7 @@ void Ui::draw_plots(float width, float height) {
   ImGui::SameLine();
   const Curve energy[]{{"kinetic", h.kinetic, blue},
                        {"stored", h.stored, green},
-                       {"dissipated", h.dissipated, orange},
+                       {"lost", h.dissipated, orange},
                        {"work", h.work, purple},
                        {"drift", h.drift, sky}};
   live_plot("E", "J", h.t, energy, size);
