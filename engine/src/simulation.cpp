@@ -1,5 +1,6 @@
 #include "rheo/simulation.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -132,6 +133,32 @@ void Simulation::hands_changed() {
 
 std::span<const double> Simulation::reaction_at(std::span<const HeldDof> held) {
   return impl_->now().reaction_at(time(), held);
+}
+
+SavedState Simulation::save() const {
+  const auto copy = [](std::span<const double> x) { return std::vector<double>(x.begin(), x.end()); };
+  SavedState saved{time(), copy(u()), copy(v()), {}, {}};
+  for (std::size_t k = 0; k < impl_->model.material.branch_count(); ++k) {
+    saved.w_lambda.push_back(copy(w_lambda(k)));
+    saved.w_mu.push_back(copy(w_mu(k)));
+  }
+  return saved;
+}
+
+void Simulation::resume(const SavedState& saved) {
+  const FlushDenormals flush;
+  const Layout& layout = impl_->model.layout;
+  assert(saved.u.size() == layout.part && saved.v.size() == layout.part);
+  std::vector<double> y(layout.size(), 0.0);
+  std::copy(saved.u.begin(), saved.u.end(), y.begin() + static_cast<std::ptrdiff_t>(layout.u()));
+  std::copy(saved.v.begin(), saved.v.end(), y.begin() + static_cast<std::ptrdiff_t>(layout.v()));
+  for (const BranchPart& branch : layout.branches) {
+    const auto& all = branch.modulus == Modulus::lambda ? saved.w_lambda : saved.w_mu;
+    if (branch.number >= all.size()) continue;
+    const std::vector<double>& w = all[branch.number];
+    std::copy(w.begin(), w.end(), y.begin() + static_cast<std::ptrdiff_t>(branch.offset));
+  }
+  impl_->stepping.resume(saved.t, y);
 }
 
 std::span<const double> Simulation::u() const {

@@ -293,6 +293,25 @@ void Stepping::attach(Hands& hands, StepLimits limits) {
   enter_now();
 }
 
+void Stepping::resume(double t, std::span<const double> y) {
+  std::copy(y.begin(), y.end(), readings_.state().begin());
+  body_.load(y);
+  readings_.state_changed();
+  readings_.state();
+  diverged_.reset();
+  book_ = {};
+  holds_.forget();
+  excuses_ = 0;
+  entered_ = false;
+  index_ = 0;
+  while (schedule_.end(index_) <= t || same_time(schedule_.end(index_), t)) ++index_;
+  time_ = t;
+  enter_from(t);
+  // What it holds has gone in before.
+  const EnergySample& now = readings_.sample(time_);
+  book_.allow(now.kinetic + now.stored);
+}
+
 std::optional<Divergence> Stepping::advance(double t) {
   assert(t >= time_ || same_time(t, time_));
   const FlushDenormals flush;

@@ -76,7 +76,15 @@ struct Counters {
   std::int64_t shifted_solves = 0;        // implicit: sparse solves with them
 };
 
+// All of the state at a time: what another simulation of the same mesh goes on from.
+struct SavedState {
+  double t = 0.0;
+  std::vector<double> u, v;                         // 2n
+  std::vector<std::vector<double>> w_lambda, w_mu;  // by branch, 2n each
+};
+
 // Ways to the same rheological force.
+
 enum class Kernel {
   automatic,  // edge where the scene allows it, else csr
   csr,        // assembled matrices: every scene; the reference
@@ -131,6 +139,12 @@ class Simulation {
   // Runs to time t >= time(), in equal steps between the events on the way; nullopt when all is well.
   // After a divergence the state is the one in which it was noticed, and further calls return it again.
   std::optional<Divergence> advance(double t);
+
+  // The state now; and going on from one that a simulation of the same mesh had, with this one's parameters.
+  // Branches that are not in both begin at zero; dissipated and work count from there. What the scene holds
+  // or moves is held where it is then.
+  SavedState save() const;
+  void resume(const SavedState& saved);
 
   std::span<const double> u() const;
   std::span<const double> v() const;
