@@ -64,7 +64,7 @@ bool Stepping::books_dissipated() const {
   return !takes_long_steps(scene_.time.integrator) ||
          (std::all_of(model_.layout.branches.begin(), model_.layout.branches.end(),
                       [](const BranchPart& branch) { return branch.rate == 0.0; }) &&
-          model_.material.viscous.lambda == 0.0 && model_.material.viscous.mu == 0.0);
+          !model_.has_viscous_part());
 }
 
 void Stepping::enter(std::size_t i) {
@@ -143,7 +143,7 @@ bool Stepping::at_rest() {
 void Stepping::pass_at_rest(double end) {
   const std::span<double> y = readings_.state();
   for (const BranchPart& branch : model_.layout.branches) {
-    VectorMap(y.data() + branch.offset, static_cast<Eigen::Index>(model_.layout.part)) *=
+    VectorMap(y.data() + branch.offset, static_cast<Eigen::Index>(branch.size)) *=
         std::exp(-branch.rate * (end - time_));
   }
   body_.load(y);

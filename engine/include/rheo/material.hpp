@@ -29,6 +29,8 @@ enum class Mass {
 struct Moduli {
   double lambda = 0.0;
   double mu = 0.0;
+
+  bool operator==(const Moduli&) const = default;
 };
 
 // A spring and a dashpot in series, for lambda and mu each.
@@ -41,6 +43,8 @@ struct MaxwellBranch {
   // Inverse relaxation times ela / vis [1/s]; 0 for a branch that is off or never relaxes.
   double lambda_rate() const { return rate(lambda_ela, lambda_vis); }
   double mu_rate() const { return rate(mu_ela, mu_vis); }
+
+  bool operator==(const MaxwellBranch&) const = default;
 
  private:
   static double rate(double ela, double vis) { return ela > 0.0 ? ela / vis : 0.0; }
@@ -72,6 +76,8 @@ struct Material {
   double mu_rate() const { return branch(0).mu_rate(); }
 
   void validate(const std::string& where = {}) const;
+
+  bool operator==(const Material&) const = default;
 };
 
 // Whether two rates differ by rounding only.
