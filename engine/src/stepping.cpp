@@ -48,6 +48,12 @@ int fastest_node(const VectorMap& v) {
   return static_cast<int>(found);
 }
 
+std::vector<Material> materials_of(const Model& model) {
+  std::vector<Material> all;
+  for (const Patch& patch : model.patches) all.push_back(patch.material);
+  return all;
+}
+
 }  // namespace
 
 Stepping::Stepping(const Scene& scene, const Model& model, Schedule& schedule, Body& body,
@@ -60,7 +66,7 @@ Stepping::Stepping(const Scene& scene, const Model& model, Schedule& schedule, B
       limits_(limits),
       stride_(stride),
       readings_(model, body),
-      rest_(model.material, model.layout.part,
+      rest_(materials_of(model), model.layout.part,
             scene.time.integrator == IntegratorKind::exponential
                 ? std::max(way_at_rest, tolerance_at_rest * scene.time.tolerance)
                 : way_at_rest),
@@ -85,7 +91,7 @@ bool Stepping::books_dissipated() const {
   return !takes_long_steps(scene_.time.integrator) ||
          (std::all_of(model_.layout.branches.begin(), model_.layout.branches.end(),
                       [](const BranchPart& branch) { return branch.rate == 0.0; }) &&
-          model_.material.viscous.lambda == 0.0 && model_.material.viscous.mu == 0.0);
+          !model_.has_viscous_part());
 }
 
 void Stepping::enter(std::size_t i) {
@@ -175,7 +181,7 @@ bool Stepping::looks_at_rest() {
 void Stepping::pass_at_rest(double end, std::int64_t steps) {
   const std::span<double> y = readings_.state();
   for (const BranchPart& branch : model_.layout.branches) {
-    VectorMap(y.data() + branch.offset, static_cast<Eigen::Index>(model_.layout.part)) *=
+    VectorMap(y.data() + branch.offset, static_cast<Eigen::Index>(branch.size)) *=
         std::exp(-branch.rate * (end - time_));
   }
   body_.load(y);

@@ -280,8 +280,8 @@ TEST(EdgeForce, IsTheStiffnessOfTheAssembledForm) {
   const Material material{7, 5, 4, 2, 0.2, Mass::lumped};
   const Model matrices(mesh, material), edges(mesh, material, Assembly::edges);
   const Vector x = Vector::Random(2 * mesh.node_count());
-  const Vector expected = matrices.stiffness(7.0, 5.0, x);
-  EXPECT_LT((edges.stiffness(7.0, 5.0, x) - expected).norm(), 1e-13 * expected.norm());
+  const Vector expected = matrices.stiffness({Moduli{7.0, 5.0}}, x);
+  EXPECT_LT((edges.stiffness({Moduli{7.0, 5.0}}, x) - expected).norm(), 1e-13 * expected.norm());
 }
 
 TEST(Model, ElementBoundIsTheLargestEigenvalueOfAnElement) {

@@ -149,7 +149,8 @@ class Simulation {
   std::span<const double> u() const;
   std::span<const double> v() const;
   // All residual forces but the elastic part's: sum over the branches of w + viscous v. Valid until the next
-  // call or step.
+  // call or step. Where materials meet, a node has residual forces of its own for each of them; here and
+  // below it is given their mean, weighted by the area of each material's triangles at the node.
   std::span<const double> w_lambda() const;
   std::span<const double> w_mu() const;
   // Of one branch (Material::branch); zeros where it is off.
@@ -158,6 +159,8 @@ class Simulation {
   // p, with the elastic part: what the stress comes from (deformation.hpp). Without one the same as w.
   std::span<const double> pull_lambda() const;
   std::span<const double> pull_mu() const;
+  // Of every triangle, from its own material's p: m x 3 (xx, yy, xy) [Pa].
+  void stress(std::span<double> out) const;
 
   Energies energies() const;
   // Force of the constraints on the nodes, now (just after an event at this time).
