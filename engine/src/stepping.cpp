@@ -220,6 +220,7 @@ std::optional<Divergence> Stepping::run_segment(double end) {
     time_ = k + 1 == n ? end : start + static_cast<double>(k + 1) * h;
     ++body_.counters().steps;
     ++steps_since_look_;
+    if (FlushDenormals::is_on()) ++body_.counters().flushed_steps;
     body_.impose_prescribed(time_);
     readings_.state_changed();
     if ((k + 1) % stride != 0 && k + 1 != n) continue;

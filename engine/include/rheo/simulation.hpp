@@ -72,6 +72,7 @@ struct Counters {
   std::int64_t projections = 0;           // velocity jumps where constraints begin
   std::int64_t energy_samples = 0;        // looks at the energies: each costs about one evaluation
   std::int64_t steps_at_rest = 0;         // not taken, because nothing moved and nothing acted
+  std::int64_t flushed_steps = 0;         // with denormal numbers taken for zero: all, on x86-64
   std::int64_t factors = 0;               // implicit: made, for a step size and set of constraints each
   std::int64_t shifted_solves = 0;        // implicit: sparse solves with them
 };
