@@ -163,6 +163,7 @@ void check_by_rk4(Reference& reference, const rheo::Scene& scene, const rheo::Si
   ErrorMeter meter(reference.exact);
   for (std::size_t k = 0, next = 0; k < reference.exact.times.size() && next < reached; ++k)
     if (reference.exact.times[k] == times[next]) meter.include(k, fine->states[next++]);
+  reference.uncertainty = std::max(reference.uncertainty, meter.error());
   reference.check = fmt::format(
       "RK4 extrapolated from steps of {:.3g} s and half of it agrees to {:.1e} at {} output{} up to {:.4g} s",
       h, meter.error(), reached, reached == 1 ? "" : "s", times[reached - 1]);
@@ -193,7 +194,7 @@ void follow_exponential(Reference& reference, const rheo::Scene& scene,
                     "{:.4g} s: check the scene's loads and motions",
                     rheo::finest_tolerance, divergence->t));
   reference.method = fmt::format("integrator exponential at tolerance {:g}", rheo::finest_tolerance);
-  reference.uncertainty = rheo::finest_tolerance;
+  reference.uncertainty = reference.claimed = rheo::finest_tolerance;
 }
 
 void extrapolate_rk4(Reference& reference, const rheo::Scene& scene, const rheo::SimulationOptions& options,

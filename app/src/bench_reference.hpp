@@ -22,7 +22,8 @@ struct Reference {
   Trajectory exact;
   std::string method;
   std::string check;                 // how far an independent way is from it; empty where none was taken
-  double uncertainty = 0.0;          // errors below it say nothing
+  double uncertainty = 0.0;          // errors below it say nothing; where it was checked, what was measured
+  double claimed = 0.0;              // the tolerance of its own that it kept to; 0 where it has none
   double exponential_seconds = 0.0;  // that its run took; 0 where it came another way
 
   bool by_exponential() const { return exponential_seconds > 0.0; }

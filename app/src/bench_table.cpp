@@ -15,7 +15,8 @@ constexpr double clear_of_uncertainty = 3.0;
 std::string advice_for(const char* name, const std::vector<Row>& rows, const Reference& reference) {
   const double wanted = std::stod(name);
   const std::string target = fmt::format("for {} ", name);
-  if (clear_of_uncertainty * reference.uncertainty > wanted)
+  const bool unsure = clear_of_uncertainty * reference.uncertainty > wanted;
+  if (unsure && (reference.claimed == 0.0 || clear_of_uncertainty * reference.claimed > wanted))
     return target +
            fmt::format("nothing can be said (the exact solution is known to {:.1e})", reference.uncertainty);
   // Of one integrator the least work, which is no matter of chance; of these the fastest.
@@ -33,7 +34,11 @@ std::string advice_for(const char* name, const std::vector<Row>& rows, const Ref
   for (const Row* row : frugal)
     if (best == nullptr || row->median() < best->median()) best = row;
   if (best != nullptr)
-    return target + fmt::format("use {} ({:.2g} s)", options_of(best->setting), best->median());
+    return target + fmt::format("use {} ({:.2g} s{})", options_of(best->setting), best->median(),
+                                unsure ? fmt::format("; by its tolerance: the exact solution was checked to "
+                                                     "{:.1e} only",
+                                                     reference.uncertainty)
+                                       : "");
   const auto closest = std::ranges::min_element(rows, {}, &Row::error);
   return target + fmt::format("none of these will do (the closest, {}, reached {:.1e})",
                               options_of(closest->setting), closest->error);

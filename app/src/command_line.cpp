@@ -167,7 +167,7 @@ void add_bench_options(CLI::App& command, Texts& texts) {
       "seconds that all of it may take, about; runs beyond it are left out and\nnamed; default 60");
   add(what, "--integrator", texts.integrator, "NAME", "this one alone; default: all");
   add(what, "--kernel", texts.kernel, "NAME",
-      "csr, edge or auto, the default: the fastest that the scene allows");
+      "csr, edge, element or auto, the default: the fastest that the scene\nallows");
   add(what, "--threads", texts.threads, "N", "threads that compute; default: as many processors as pay");
   add(what, "--duration", texts.duration, "NUMBER", "seconds to simulate; default: as the scene says");
   add(what, "--frame-rate", texts.frame_rate, "NUMBER",

@@ -162,6 +162,23 @@ void check_probes(const std::vector<Probe>& probes, const Mesh& mesh) {
   }
 }
 
+void check_materials(const Scene& scene) {
+  const auto most = static_cast<std::int32_t>(scene.regions.size());
+  for (const Region& region : scene.regions) {
+    region.material.validate(region.where);
+    if (region.material.mass != scene.material.mass)
+      refuse(region.where, "mass: lumped or consistent, all materials of a scene have the same");
+  }
+  const std::vector<std::int32_t>& of = scene.region_of_triangle;
+  if (of.empty() && most == 0) return;
+  if (of.size() != scene.mesh.triangles.size())
+    refuse("[[region]]", fmt::format("the materials of {} triangles where the mesh has {}", of.size(),
+                                     scene.mesh.triangles.size()));
+  for (const std::int32_t number : of)
+    if (number < 0 || number > most)
+      refuse("[[region]]", fmt::format("material {} of a triangle: 0 to {} are there", number, most));
+}
+
 }  // namespace
 
 void validate(const TimeSettings& time) {
@@ -224,12 +241,18 @@ void validate(const PictureSettings& picture) {
   }
 }
 
+std::size_t most_branches(const Scene& scene) {
+  std::size_t most = scene.material.branch_count();
+  for (const Region& region : scene.regions) most = std::max(most, region.material.branch_count());
+  return most;
+}
+
 void validate(const Scene& scene) {
   const Mesh& mesh = scene.mesh;
   if (mesh.triangles.empty()) refuse("[mesh]", "the mesh has no triangles: at least one is needed");
   check_mesh(mesh);
   scene.material.validate("[material]");
-  if (!scene.regions.empty()) refuse("[[region]]", "several materials in one mesh: not in this version");
+  check_materials(scene);
   if (!usable(scene.body_acceleration)) {
     refuse("[body_force]", fmt::format("acceleration = [{}, {}]: {} (m/s^2) are needed",
                                        scene.body_acceleration.x, scene.body_acceleration.y, usable_numbers));
@@ -249,10 +272,10 @@ void validate(const Scene& scene) {
   check_probes(scene.probes, mesh);
   validate(scene.time);
   validate(scene.picture);
-  if (static_cast<std::size_t>(scene.picture.branch) > scene.material.branch_count()) {
+  const std::size_t branches = most_branches(scene);
+  if (static_cast<std::size_t>(scene.picture.branch) > branches) {
     refuse("[render]", fmt::format("branch = {}: the material has {} Maxwell branch{}, 0 is all of them",
-                                   scene.picture.branch, scene.material.branch_count(),
-                                   scene.material.branch_count() == 1 ? "" : "es"));
+                                   scene.picture.branch, branches, branches == 1 ? "" : "es"));
   }
 }
 

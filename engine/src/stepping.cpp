@@ -12,7 +12,12 @@ namespace {
 
 // Of all energy that ever went in: what is left below it cannot move the body by a rounding of its course.
 constexpr double energy_at_rest = 1e-32;
-constexpr double violation_allowed = 0.01;  // of a constraint's coefficients times the largest |u|
+constexpr double way_at_rest = 1e-14;  // of u under loads: some roundings (RestWatch)
+constexpr double tolerance_at_rest =
+    0.1;  // of the exponential integrator's, beside which less cannot be seen
+constexpr std::int64_t steps_between_looks = 64;  // a multiple of every stride
+constexpr std::int64_t steps_before_a_look = 16;  // where a stretch of steps begins
+constexpr double violation_allowed = 0.01;        // of a constraint's coefficients times the largest |u|
 // A pole that the step hardly resolves lets a violation swing to some multiple of its start before it decays.
 constexpr double violation_swing = 100.0;
 constexpr double motion_lag = 20.0;  // of a motion's way: what one step over all of it makes of it
@@ -21,6 +26,12 @@ constexpr double motion_lag = 20.0;  // of a motion's way: what one step over al
 // an unstable run uses that up within some tens of steps.
 constexpr int most_excuses = 12;
 constexpr double excused_growth = 4.0;
+// Of all energy that went in, where the step is beyond the stable one and the work is known to rounding; with
+// general constraints but for what they let drift.
+constexpr double unstable_slack = 1e-6;
+constexpr double unstable_slack_with_constraints = 1e-2;
+// Of the way that unresisted loads would make in a step: constraint forces cancel them but for rounding.
+constexpr double cancelled_loads = 1e-6;
 
 // The first node whose velocity is no number, or the one with the largest.
 int fastest_node(const VectorMap& v) {
@@ -49,6 +60,10 @@ Stepping::Stepping(const Scene& scene, const Model& model, Schedule& schedule, B
       limits_(limits),
       stride_(stride),
       readings_(model, body),
+      rest_(model.material, model.layout.part,
+            scene.time.integrator == IntegratorKind::exponential
+                ? std::max(way_at_rest, tolerance_at_rest * scene.time.tolerance)
+                : way_at_rest),
       holds_(model, scene.constraints.size()) {
   enter(0);
 }
@@ -58,6 +73,12 @@ bool Stepping::books_work() const {
   return !takes_long_steps(scene_.time.integrator) ||
          (scene_.moves.empty() && std::all_of(scene_.tractions.begin(), scene_.tractions.end(),
                                               [](const Traction& t) { return t.keys.size() == 1; }));
+}
+// By parts exact, and nothing but constant loads does any.
+bool Stepping::knows_work() const {
+  return scene_.time.integrator == IntegratorKind::rk4 && hands_ == nullptr && scene_.moves.empty() &&
+         std::all_of(scene_.tractions.begin(), scene_.tractions.end(),
+                     [](const Traction& t) { return t.keys.size() == 1; });
 }
 // Likewise: nothing, or unknown.
 bool Stepping::books_dissipated() const {
@@ -77,6 +98,8 @@ void Stepping::enter(std::size_t i) {
 void Stepping::enter_from(double begin) {
   const bool first = !entered_;
   entered_ = true;
+  rest_.restart();
+  resting_ = false;
   schedule_.fill(index_, begin, next_);
   if (hands_ != nullptr && hands_->add_to(next_)) next_.solver = schedule_.solver_holding(index_, next_.held);
   if (holds_.change_owners(next_, hands_)) readings_.state();
@@ -131,23 +154,32 @@ void Stepping::note_motions() {
   }
 }
 
-// Nothing acts, nothing is moved, and what is left of the energy is nothing beside what went in.
-bool Stepping::at_rest() {
-  if (interval_.moving || !interval_.solver->columns().empty()) return false;
-  if (!(interval_.force.array() == 0.0).all() || !(interval_.force_rate.array() == 0.0).all()) return false;
-  const EnergySample& now = readings_.sample(time_);
-  return now.kinetic + now.stored <= energy_at_rest * book_.turnover();
+// Nothing is moved and nothing that acts changes; without loads, what is left of the energy is nothing beside
+// what went in; under loads or general constraints, RestWatch.
+bool Stepping::looks_at_rest() {
+  steps_since_look_ = 0;
+  if (interval_.moving || !(interval_.force_rate.array() == 0.0).all()) return false;
+  const bool general = !interval_.solver->columns().empty();
+  if (!general && (interval_.force.array() == 0.0).all()) {
+    const EnergySample& now = readings_.sample(time_);
+    return now.kinetic + now.stored <= energy_at_rest * book_.turnover();
+  }
+  const auto numbers = [](const VectorMap& x) {
+    return std::span<const double>(x.data(), static_cast<std::size_t>(x.size()));
+  };
+  return rest_.look(time_, numbers(readings_.u()), numbers(readings_.v()),
+                    general ? scene_.time.baumgarte : 0.0);
 }
 
 // (Residual forces of a rigid motion hold no energy and may still be large.)
-void Stepping::pass_at_rest(double end) {
+void Stepping::pass_at_rest(double end, std::int64_t steps) {
   const std::span<double> y = readings_.state();
   for (const BranchPart& branch : model_.layout.branches) {
     VectorMap(y.data() + branch.offset, static_cast<Eigen::Index>(model_.layout.part)) *=
         std::exp(-branch.rate * (end - time_));
   }
   body_.load(y);
-  body_.counters().steps_at_rest += steps_to(end);
+  body_.counters().steps_at_rest += steps;
   time_ = end;
   readings_.state_changed();
 }
@@ -159,11 +191,17 @@ std::int64_t Stepping::steps_to(double end) const {
 
 std::optional<Divergence> Stepping::run_segment(double end) {
   const double start = time_;
-  if (at_rest()) {
-    pass_at_rest(end);
+  const std::int64_t n = steps_to(end);
+  // Long steps cost many times what a look does.
+  const bool long_steps = takes_long_steps(scene_.time.integrator);
+  const std::int64_t stride = long_steps ? 1 : stride_;
+  const std::int64_t between_looks = long_steps ? 1 : steps_between_looks;
+  const bool looks = steps_since_look_ == 0 || steps_since_look_ >= steps_before_a_look || long_steps;
+  if (!resting_ && looks) resting_ = looks_at_rest();
+  if (resting_) {
+    pass_at_rest(end, n);
     return std::nullopt;
   }
-  const std::int64_t n = steps_to(end);
   const double h = (end - start) / static_cast<double>(n);
   largest_step_ = std::max(largest_step_, h);
   readings_.sample(time_);
@@ -175,13 +213,20 @@ std::optional<Divergence> Stepping::run_segment(double end) {
     }
     time_ = k + 1 == n ? end : start + static_cast<double>(k + 1) * h;
     ++body_.counters().steps;
+    ++steps_since_look_;
     body_.impose_prescribed(time_);
     readings_.state_changed();
-    if ((k + 1) % stride_ != 0 && k + 1 != n) continue;
+    if ((k + 1) % stride != 0 && k + 1 != n) continue;
     const EnergySample before = readings_.last_sample();
     const double since = readings_.last_sample_time();
     book_.book_step(before, readings_.sample(time_), time_ - since);
     if (auto found = check_divergence()) return found;
+    if ((k + 1) % between_looks != 0 || k + 1 == n) continue;
+    resting_ = looks_at_rest();
+    if (resting_) {
+      pass_at_rest(end, n - (k + 1));
+      break;
+    }
   }
   return std::nullopt;
 }
@@ -190,15 +235,17 @@ std::optional<Divergence> Stepping::check_divergence() {
   const EnergySample& now = readings_.sample(time_);
   const double energy = now.kinetic + now.stored;
   // Where the work is not known, the integrator's own error control stands guard.
-  bool fine = books_work() ? energy <= book_.work() + book_.turnover()  // false for NaN
+  bool fine = books_work() ? energy <= explained_energy()  // false for NaN
                            : std::isfinite(energy);
   const bool work_by_constraints = interval_.moving || !interval_.solver->columns().empty();
-  if (!fine && work_by_constraints && std::isfinite(energy) && excuses_ < most_excuses) {
+  if (!fine && !is_beyond_limit() && work_by_constraints && std::isfinite(energy) &&
+      excuses_ < most_excuses) {
     ++excuses_;
     book_.allow(excused_growth * energy);
     fine = true;
   }
-  const double reach = allowed_violation_.empty() ? 0.0 : readings_.u().lpNorm<Eigen::Infinity>();
+  const double reach =
+      allowed_violation_.empty() ? 0.0 : std::max(readings_.u().lpNorm<Eigen::Infinity>(), cancelled_way());
   for (std::size_t j = 0; fine && j < allowed_violation_.size(); ++j) {
     double size = 0.0;
     for (const auto& entry : interval_.solver->columns()[j].entries) size += std::abs(entry.second) * reach;
@@ -208,9 +255,26 @@ std::optional<Divergence> Stepping::check_divergence() {
   return divergence_now();
 }
 
+double Stepping::explained_energy() const {
+  double slack = 1.0;
+  if (is_beyond_limit() && knows_work())
+    slack = interval_.solver->columns().empty() ? unstable_slack : unstable_slack_with_constraints;
+  return book_.work() + slack * book_.turnover();
+}
+
+// How far rounding may have moved a body whose constraints held against all of its loads.
+double Stepping::cancelled_way() {
+  const std::span<const double> force = readings_.external_force(time_);
+  double fastest = 0.0;
+  for (std::size_t dof = 0; dof < force.size(); ++dof)
+    fastest = std::max(fastest, std::abs(force[dof]) / model_.node_mass[static_cast<Eigen::Index>(dof / 2)]);
+  cancelled_way_ = std::max(cancelled_way_, cancelled_loads * fastest * largest_step_ * largest_step_);
+  return cancelled_way_;
+}
+
 Divergence Stepping::divergence_now() {
   const EnergySample& now = readings_.sample(time_);
-  Divergence d{time_, 0, now.kinetic + now.stored, book_.work() + book_.turnover(), limits_.stable};
+  Divergence d{time_, 0, now.kinetic + now.stored, explained_energy(), limits_.stable};
   d.node = fastest_node(readings_.v());
   return d;
 }

@@ -1,8 +1,9 @@
 // A body through the scene's intervals: equal steps to the next event, the passage of the event, rest, and
 // the watch over divergence.
 //
-// Where mass and loads have spent all energy but a rounding of it, nothing is stepped: v = 0 and
-// w' = - rate w, exactly.
+// Where mass and loads have spent all energy but a rounding of it, or where nothing goes on under loads that
+// stay as they are (rest_watch.hpp), nothing is stepped: v = 0 and w' = - rate w, exactly. Looked for where a
+// stretch of steps begins and every 64 of them (every one that is long), until an event or a hand.
 //
 // Units    time [s], energies [J]
 // Errors   advance: a Divergence, never an exception
@@ -16,6 +17,7 @@
 #include "hands.hpp"
 #include "holds.hpp"
 #include "readings.hpp"
+#include "rest_watch.hpp"
 #include "step_choice.hpp"
 
 namespace rheo {
@@ -44,14 +46,19 @@ class Stepping {
   const EnergyBook& book() const { return book_; }
   // Whether the quadrature over a step gives all of the work, and of what is dissipated.
   bool books_work() const;
+  bool knows_work() const;
+  bool is_beyond_limit() const { return limits_.bound > limits_.stable; }  // as the user allowed
+  double explained_energy() const;
+  double cancelled_way();
   bool books_dissipated() const;
   Readings& readings() { return readings_; }
 
  private:
   void enter(std::size_t i);
   void enter_from(double begin);
-  bool at_rest();
-  void pass_at_rest(double end);
+  bool looks_at_rest();
+  // Instead of so many steps.
+  void pass_at_rest(double end, std::int64_t steps);
   std::int64_t steps_to(double end) const;
   std::optional<Divergence> run_segment(double end);
   double violation(std::size_t column);
@@ -70,6 +77,9 @@ class Stepping {
 
   Readings readings_;
   EnergyBook book_;
+  RestWatch rest_;
+  bool resting_ = false;
+  std::int64_t steps_since_look_ = 0;
   Holds holds_;
   Hands* hands_ = nullptr;
   Interval interval_, next_;
@@ -78,7 +88,8 @@ class Stepping {
   double time_ = 0.0;
   double largest_step_ = 0.0;
   std::vector<double> allowed_violation_;
-  int excuses_ = 0;  // for energy beyond the work by quadrature
+  double cancelled_way_ = 0.0;  // [m]
+  int excuses_ = 0;             // for energy beyond the work by quadrature
   std::optional<Divergence> diverged_;
 };
 

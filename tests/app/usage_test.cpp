@@ -185,6 +185,7 @@ TEST_F(Usage, HelpOfACommandNamesAllItsOptions) {
   for (const char* option :
        {"--budget", "--csv", "--integrator", "--kernel", "--threads", "-o,--output", "--force"})
     EXPECT_THAT(bench.out, HasSubstr(option));
+  EXPECT_THAT(bench.out, HasSubstr("element"));
   EXPECT_THAT(bench.out, Not(HasSubstr("  --step")));
   for (const std::string& line : lines_of(bench.out)) EXPECT_LE(line.size(), 120u) << line;
   // A line that wraps on a common terminal of 120 columns is hard to read.

@@ -7,6 +7,8 @@
 //   skip/displacement/...  u advanced once a step; in every sweep
 //   skip/energies/...      energies at no step; at every step
 //   skip/rest/...          a simulated second of a body at rest; of one that still moves
+//   skip/rest/under_load/...   1k triangles under a traction: at rest; stepped on, as the traction changes by
+//                          nothing that shows; likewise skip/rest/constraint/... with a general constraint
 //   skip/denormals/...     a step from 1; after 1e6 s of relaxation; there without flushing denormals
 //
 // Colour and upload, with against without: rheo_bench_render, DrawAndReadBack...
@@ -132,7 +134,7 @@ void displacement(benchmark::State& state, rheo::Result inner) {
 void rest(benchmark::State& state, bool moving) {
   rheo::Scene scene = block();
   scene.tractions[0].window.until = 0.01;
-  scene.time.duration = 1e9;
+  scene.time.duration = 1e7;
   scene.time.frame_rate = 1e-3;
   if (moving) {
     scene.material.lambda_vis = scene.material.mu_vis = rheo::forever;  // for ever
@@ -145,6 +147,40 @@ void rest(benchmark::State& state, bool moving) {
   double t = moving ? 0.02 : 30.0;
   if (simulation.advance(t)) state.SkipWithError("diverged");
   const double length = moving ? 0.01 : 1.0;
+  for (auto _ : state) {
+    t += length;
+    benchmark::DoNotOptimize(simulation.advance(t));
+  }
+  state.counters["us/s"] = benchmark::Counter(
+      1e-6 * length, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+enum class Load { constant, changing };
+enum class Bound { free, by_constraint };
+
+// A hundred of its steps; a body that finds back and is damped strongly, so that it soon rests.
+void loaded(benchmark::State& state, Load load, Bound bound) {
+  rheo::Scene scene = bench::case_of(triangles / 10).scene;
+  scene.material = {7, 5, 0.7, 0.5, 0.2, rheo::Mass::lumped};
+  scene.material.elastic = {6, 4};
+  scene.fixes[0].nodes = rheo::nodes_of(scene.mesh.edge_groups.at("bottom"));
+  rheo::Traction& traction = scene.tractions[0];
+  traction.window = {};
+  traction.keys = {{0.0, {1.0, 0.0}}};
+  if (load == Load::changing) traction.keys.push_back({1e7, {1.0 + 1e-12, 0.0}});
+  if (bound == Bound::by_constraint) {
+    const auto nodes = rheo::nodes_of(scene.mesh.edge_groups.at("right"));
+    scene.constraints.push_back(
+        {{{nodes[nodes.size() / 2], rheo::Axis::x, 1.0}, {nodes.back(), rheo::Axis::x, -1.0}}, 0.0, ""});
+  }
+  scene.time.duration = 1e7;
+  scene.time.frame_rate = 1e-3;
+  rheo::Simulation simulation(std::move(scene), {.energies = false, .threads = 1});
+  double t = load == Load::constant ? 60.0 : 0.1;  // steps take as long at any time
+  if (simulation.advance(t)) state.SkipWithError("diverged");
+  if (load == Load::constant && simulation.counters().steps_at_rest == 0)
+    state.SkipWithError("it does not come to rest");
+  const double length = load == Load::constant ? 1.0 : 100.0 * simulation.step_bound();
   for (auto _ : state) {
     t += length;
     benchmark::DoNotOptimize(simulation.advance(t));
@@ -210,6 +246,18 @@ BENCHMARK_CAPTURE(energies, never, false)->Name("skip/energies/never")->UseRealT
 BENCHMARK_CAPTURE(energies, always, true)->Name("skip/energies/every_step")->UseRealTime();
 BENCHMARK_CAPTURE(rest, still, false)->Name("skip/rest/at_rest")->UseRealTime();
 BENCHMARK_CAPTURE(rest, moving, true)->Name("skip/rest/moving")->UseRealTime();
+BENCHMARK_CAPTURE(loaded, rest, Load::constant, Bound::free)
+    ->Name("skip/rest/under_load/at_rest")
+    ->UseRealTime();
+BENCHMARK_CAPTURE(loaded, stepped, Load::changing, Bound::free)
+    ->Name("skip/rest/under_load/stepped")
+    ->UseRealTime();
+BENCHMARK_CAPTURE(loaded, bound_rest, Load::constant, Bound::by_constraint)
+    ->Name("skip/rest/constraint/at_rest")
+    ->UseRealTime();
+BENCHMARK_CAPTURE(loaded, bound_stepped, Load::changing, Bound::by_constraint)
+    ->Name("skip/rest/constraint/stepped")
+    ->UseRealTime();
 BENCHMARK_CAPTURE(denormals, fresh, State::fresh, Denormals::flushed)
     ->Name("skip/denormals/fresh")
     ->UseRealTime();

@@ -29,6 +29,7 @@ enum class Mass {
 struct Moduli {
   double lambda = 0.0;
   double mu = 0.0;
+  friend bool operator==(const Moduli&, const Moduli&) = default;
 };
 
 // A spring and a dashpot in series, for lambda and mu each.
@@ -41,6 +42,7 @@ struct MaxwellBranch {
   // Inverse relaxation times ela / vis [1/s]; 0 for a branch that is off or never relaxes.
   double lambda_rate() const { return rate(lambda_ela, lambda_vis); }
   double mu_rate() const { return rate(mu_ela, mu_vis); }
+  friend bool operator==(const MaxwellBranch&, const MaxwellBranch&) = default;
 
  private:
   static double rate(double ela, double vis) { return ela > 0.0 ? ela / vis : 0.0; }
@@ -72,6 +74,7 @@ struct Material {
   double mu_rate() const { return branch(0).mu_rate(); }
 
   void validate(const std::string& where = {}) const;
+  friend bool operator==(const Material&, const Material&) = default;
 };
 
 // Whether two rates differ by rounding only.

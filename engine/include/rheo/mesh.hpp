@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -29,6 +30,9 @@ struct Mesh {
   // Named edges. prepare() adds "boundary": every edge with a triangle on one side only, the interior on its
   // left.
   std::map<std::string, std::vector<Edge>> edge_groups;
+  // Named triangles: a Gmsh file's physical surfaces.
+  std::map<std::string, std::vector<std::int32_t>> triangle_groups;
+  std::map<int, std::string> triangle_group_of_number;  // by Gmsh's number
 
   int node_count() const { return static_cast<int>(points.size()); }
   int triangle_count() const { return static_cast<int>(triangles.size()); }

@@ -75,8 +75,12 @@ Words keys_of(const TomlValue& table) {
 
 class MaterialReader {
  public:
-  MaterialReader(const TomlValue& table, const std::string& file, const std::filesystem::path& folder)
-      : file_(file), folder_(folder), top_(table, file, "[material]", table.line, keys_of(table)) {}
+  MaterialReader(const TomlValue& table, const std::string& file, const std::filesystem::path& folder,
+                 const std::string& owner)
+      : file_(file),
+        folder_(folder),
+        name_(owner + "material"),
+        top_(table, file, fmt::format("[{}]", name_), table.line, keys_of(table)) {}
 
   MaterialReading read() {
     static const std::array<std::string, 2> planes{"strain", "stress"};
@@ -93,7 +97,7 @@ class MaterialReader {
     m.density = top_.required_number("density", density, "the density");
     m.mass = static_cast<Mass>(top_.choice("mass", masses, 0));
     refuse_idle_keys();
-    top_.locate([&] { m.validate("[material]"); });
+    top_.locate([&] { m.validate(top_.header()); });
     return std::move(reading_);
   }
 
@@ -120,8 +124,8 @@ class MaterialReader {
     Material& m = reading_.material;
     std::vector<MaxwellBranch> branches;
     if (simple) branches.push_back(branch(top_));
-    for (const TomlValue& value : tables_of(top_.find("maxwell"), file_, "material.maxwell")) {
-      const TableReader reader(value, file_, "[[material.maxwell]]", value.line,
+    for (const TomlValue& value : tables_of(top_.find("maxwell"), file_, name_ + ".maxwell")) {
+      const TableReader reader(value, file_, fmt::format("[[{}.maxwell]]", name_), value.line,
                                branch_keys + Words{"time", "poisson"});
       refuse_idle_poisson(reader);
       branches.push_back(branch(reader));
@@ -184,8 +188,8 @@ class MaterialReader {
     const TomlValue* value = top_.find(name);
     if (value == nullptr) return {};
     if (value->type == TomlValue::Type::array)
-      top_.refuse(name, *value, fmt::format("one table, [material.{}], is needed", name));
-    const TableReader reader(*value, file_, fmt::format("[material.{}]", name), value->line,
+      top_.refuse(name, *value, fmt::format("one table, [{}.{}], is needed", name_, name));
+    const TableReader reader(*value, file_, fmt::format("[{}.{}]", name_, name), value->line,
                              {"lambda", "mu", "young", "poisson"});
     refuse_idle_poisson(reader);
     return moduli(reader, plain, rule, fmt::format("the {} {} by {{}}", name, what));
@@ -345,6 +349,7 @@ class MaterialReader {
 
   const std::string& file_;
   const std::filesystem::path& folder_;
+  std::string name_;  // "material", "body.material"
   TableReader top_;
   Plane plane_ = Plane::strain;
   std::optional<double> ratio_;  // the last that was used
@@ -355,8 +360,8 @@ class MaterialReader {
 }  // namespace
 
 MaterialReading read_material(const TomlValue& table, const std::string& file,
-                              const std::filesystem::path& folder) {
-  return MaterialReader(table, file, folder).read();
+                              const std::filesystem::path& folder, const std::string& owner) {
+  return MaterialReader(table, file, folder, owner).read();
 }
 
 }  // namespace rheo

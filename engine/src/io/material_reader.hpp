@@ -36,8 +36,9 @@ struct MaterialReading {
   std::vector<std::string> notes;  // for the user
 };
 
-// `file` stands for the scene in messages, `folder` is where relative paths start.
+// `file` stands for the scene in messages, `folder` is where relative paths start, `owner` is what the
+// table's name begins with ("body.").
 MaterialReading read_material(const TomlValue& table, const std::string& file,
-                              const std::filesystem::path& folder);
+                              const std::filesystem::path& folder, const std::string& owner = {});
 
 }  // namespace rheo

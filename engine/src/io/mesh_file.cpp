@@ -114,6 +114,7 @@ class MshReader {
       if (first != 0 || last == 0)
         in_.refuse("{} where a physical group's name in quotes is expected", in_quotes(line, 30));
       if (dimension == 1) content_.names[tag] = std::string(line.substr(1, last - 1));
+      if (dimension == 2) content_.surface_names[tag] = std::string(line.substr(1, last - 1));
     }
     in_.set_encoding(encoding);
   }
@@ -138,13 +139,16 @@ class MshReader {
     for (std::size_t i = 0; i < curves + surfaces + volumes; ++i) {
       const int tag = in_.integer("an entity's tag");
       pass_box(6);
-      if (i < curves) {
-        const std::size_t groups = in_.count_size("a curve's number of physical groups", 4, 1);
-        // Each line is entered in each of its groups: without a limit a small file could ask for much memory.
+      const bool is_curve = i < curves;
+      if (i < curves + surfaces) {
+        const std::size_t groups = in_.count_size("an entity's number of physical groups", 4, 1);
+        // Each element is entered in each of its groups: without a limit a small file could ask for much
+        // memory.
         constexpr std::size_t most_groups = 1000;
         if (groups > most_groups)
-          in_.refuse("curve {} is in {} physical groups: at most {} are read", tag, groups, most_groups);
-        auto& list = content_.curve_groups[tag];
+          in_.refuse("{} {} is in {} physical groups: at most {} are read", is_curve ? "curve" : "surface",
+                     tag, groups, most_groups);
+        auto& list = (is_curve ? content_.curve_groups : content_.surface_groups)[tag];
         for (std::size_t k = 0; k < groups; ++k) list.push_back(in_.integer("a physical group's tag"));
       } else {
         pass_tags("an entity's number of physical groups");
@@ -243,10 +247,9 @@ class MshReader {
       const std::size_t count =
           in_.count_size("a block's number of elements", 8 * (1 + corners), 1 + corners);
       std::span<const int> groups;
-      if (dimension == 1) {
-        if (const auto found = content_.curve_groups.find(entity); found != content_.curve_groups.end()) {
-          groups = found->second;
-        }
+      if (dimension == 1 || dimension == 2) {
+        const auto& known = dimension == 1 ? content_.curve_groups : content_.surface_groups;
+        if (const auto found = known.find(entity); found != known.end()) groups = found->second;
       }
       for (std::size_t i = 0; i < count; ++i) {
         const std::int64_t tag = in_.size("an element's tag");

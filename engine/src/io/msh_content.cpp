@@ -18,6 +18,17 @@ enum ElementType { line_type = 1, triangle_type = 2, point_type = 15 };
 // Files differ in rounding where a tool has turned or scaled a plane; a fraction of the mesh's size.
 constexpr double flatness = 1e-9;
 
+// A negative tag means the group with the curve or surface turned round.
+int without_sign(int group) {
+  return group == std::numeric_limits<int>::min() ? group : std::abs(group);
+}
+
+std::string group_name(const std::map<int, std::string>& names, int tag) {
+  const auto name = names.find(tag);
+  const bool named = name != names.end() && !name->second.empty();
+  return named ? name->second : fmt::format("physical_{}", tag);
+}
+
 class MeshMaker {
  public:
   MeshMaker(const MshContent& content, const std::string& file) : content_(content), file_(file) {}
@@ -78,12 +89,21 @@ class MeshMaker {
       mesh_.triangles.push_back(corners);
       groups.push_back(triangle.group);
     }
-    if (std::any_of(groups.begin(), groups.end(), [&](int group) { return group != groups[0]; })) {
-      drop_repeated(groups);
+    const bool several =
+        std::any_of(groups.begin(), groups.end(), [&](int group) { return group != groups[0]; });
+    if (several) drop_repeated(groups);
+    if (several || groups[0] != 0) {
+      for (std::size_t i = 0; i < groups.size(); ++i) {
+        if (groups[i] == 0) continue;
+        const auto triangle = static_cast<std::int32_t>(several ? kept_as_[i] : i);
+        const std::string name = group_name(content_.surface_names, groups[i]);
+        mesh_.triangle_groups[name].push_back(triangle);
+        mesh_.triangle_group_of_number[groups[i]] = name;
+      }
     }
   }
 
-  // Version 2.2 repeats a triangle for every physical surface that it belongs to.
+  // A triangle stands in the list once for every physical surface that it belongs to.
   void drop_repeated(const std::vector<int>& groups) {
     struct Entry {
       Triangle sorted;
@@ -100,15 +120,21 @@ class MeshMaker {
       entries.push_back({sorted, i});
     }
     std::sort(entries.begin(), entries.end());
-    std::vector<char> drop(groups.size(), 0);
-    for (std::size_t i = 1, first = 0; i < entries.size(); ++i) {
+    std::vector<std::size_t> same_as(groups.size());
+    for (std::size_t i = 0, first = 0; i < entries.size(); ++i) {
       if (entries[i].sorted != entries[first].sorted) first = i;
-      drop[entries[i].index] = i != first && groups[entries[i].index] != groups[entries[first].index];
+      // The same triangle twice in one group is a mistake, which prepare() names.
+      const bool repeats = i != first && groups[entries[i].index] != groups[entries[first].index];
+      same_as[entries[i].index] = repeats ? entries[first].index : entries[i].index;
     }
+    kept_as_.resize(groups.size());
     std::size_t kept = 0;
     for (std::size_t i = 0; i < groups.size(); ++i) {
-      if (drop[i] == 0) mesh_.triangles[kept++] = mesh_.triangles[i];
+      if (same_as[i] != i) continue;
+      kept_as_[i] = kept;
+      mesh_.triangles[kept++] = mesh_.triangles[i];
     }
+    for (std::size_t i = 0; i < groups.size(); ++i) kept_as_[i] = kept_as_[same_as[i]];
     mesh_.triangles.resize(kept);
   }
 
@@ -166,9 +192,7 @@ class MeshMaker {
 
   void add_groups() {
     for (const auto& line : content_.lines) {
-      const auto name = content_.names.find(line.group);
-      const bool named = name != content_.names.end() && !name->second.empty();
-      const std::string group = named ? name->second : fmt::format("physical_{}", line.group);
+      const std::string group = group_name(content_.names, line.group);
       Edge edge{};
       for (std::size_t k = 0; k < 2; ++k) {
         edge[k] = number_[place(line.nodes[k], "the line", line.tag)];
@@ -185,8 +209,9 @@ class MeshMaker {
   Mesh mesh_;
   LeftOutNodes left_out_;
   std::vector<std::pair<std::int64_t, std::size_t>> by_tag_;
-  std::vector<char> used_;   // by a triangle
-  std::vector<int> number_;  // in the mesh, -1: left out
+  std::vector<char> used_;            // by a triangle
+  std::vector<std::size_t> kept_as_;  // the mesh's triangle of each in the file, where some are repeated
+  std::vector<int> number_;           // in the mesh, -1: left out
 };
 
 }  // namespace
@@ -235,12 +260,12 @@ void MshContent::add_element(int type, std::int64_t tag, const std::array<std::i
                              std::span<const int> groups) {
   const bool grouped = std::any_of(groups.begin(), groups.end(), [](int group) { return group != 0; });
   if (type == triangle_type) {
-    triangles.push_back({tag, corners, groups.empty() ? 0 : groups[0]});
+    if (!grouped) triangles.push_back({tag, corners, 0});
+    for (const int group : groups)
+      if (group != 0) triangles.push_back({tag, corners, without_sign(group)});
   } else if (type == line_type && grouped) {
-    // A negative tag means the group with the curve turned round.
     for (const int group : groups) {
-      if (group != 0)
-        lines.push_back({tag, corners, group == std::numeric_limits<int>::min() ? group : std::abs(group)});
+      if (group != 0) lines.push_back({tag, corners, without_sign(group)});
     }
   } else {
     for (std::size_t k = 0; k < corner_count(type); ++k) loose_nodes.push_back(corners[k]);

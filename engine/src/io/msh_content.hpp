@@ -27,7 +27,7 @@ struct MshContent {
     double x = 0.0, y = 0.0, z = 0.0;
     bool may_be_unused = false;  // lies on a geometric point or curve: the middle of an arc, say
   };
-  struct Corners {
+  struct Corners {  // a triangle or line, once for each of its groups
     std::int64_t tag = 0;
     std::array<std::int64_t, 3> nodes{};
     int group = 0;
@@ -35,10 +35,12 @@ struct MshContent {
 
   std::vector<Node> nodes;
   std::vector<Corners> triangles;
-  std::vector<Corners> lines;                    // in groups; two nodes
-  std::vector<std::int64_t> loose_nodes;         // of point elements and of lines without a group
-  std::map<int, std::string> names;              // of physical curves, by tag
-  std::map<int, std::vector<int>> curve_groups;  // physical tags of a curve (version 4.1)
+  std::vector<Corners> lines;                      // in groups; two nodes
+  std::vector<std::int64_t> loose_nodes;           // of point elements and of lines without a group
+  std::map<int, std::string> names;                // of physical curves, by tag
+  std::map<int, std::string> surface_names;        // of physical surfaces, by tag
+  std::map<int, std::vector<int>> curve_groups;    // physical tags of a curve (version 4.1)
+  std::map<int, std::vector<int>> surface_groups;  // physical tags of a surface (version 4.1)
 
   // `groups`: physical tags; a 0 means none.
   void add_element(int type, std::int64_t tag, const std::array<std::int64_t, 3>& corners,

@@ -8,43 +8,43 @@
 #include <set>
 #include <utility>
 
-#include "io/material_reader.hpp"
+#include "io/bodies_reader.hpp"
+#include "io/body_reader.hpp"
 #include "io/message.hpp"
 #include "io/read_file.hpp"
-#include "io/scene_items.hpp"
 #include "io/table_reader.hpp"
+#include "io/table_set.hpp"
 #include "io/toml_tree.hpp"
 #include "rheo/error.hpp"
-#include "rheo/io/mesh_file.hpp"
-#include "rheo/shapes.hpp"
 
 namespace rheo {
 namespace {
 
 constexpr std::size_t most_bytes = std::size_t{64} << 20;
 
-constexpr NumberRule positive_length{.low = 0.0, .low_allowed = false, .unit = "m"};
-
-using Words = std::vector<std::string>;
-
 class SceneReader {
  public:
   SceneReader(const std::string& text, const std::string& file, std::filesystem::path folder)
-      : file_(file), folder_(std::move(folder)), root_(parse_toml(text, file)) {}
+      : file_(file),
+        folder_(std::move(folder)),
+        root_(parse_toml(text, file)),
+        tables_(root_, file_, "", 1) {}
 
   Scene read() {
     if (root_.entries.empty()) {
       throw Error(Error::Kind::input,
                   fmt::format("{}:1: the scene is empty: [mesh], [material] and [time] are needed", file_));
     }
-    const TableReader top(root_, file_, "", 1,
-                          {"title", "mesh", "edges", "material", "body_force", "fix", "move", "constraint",
-                           "traction", "probe", "time", "render"});
+    std::vector<std::string> keys = body_keys();
+    keys.insert(keys.begin(), "title");
+    keys.insert(keys.end(), {"body", "body_force", "time", "render"});
+    const TableReader top(root_, file_, "", 1, keys);
+    if (tables_.has("body"))
+      scene_ = read_bodies(root_, file_, folder_);
+    else
+      scene_ = read_body(root_, file_, folder_, "", 1);
     scene_.title = top.text("title", std::filesystem::path(file_).filename().string());
-    read_mesh();
-    read_material();
     read_body_force();
-    read_items();
     read_time();
     read_render();
     try {
@@ -57,163 +57,13 @@ class SceneReader {
   }
 
  private:
-  // [name], empty where it is not there.
-  const TomlValue& value_of(const std::string& name) const {
-    static const TomlValue empty;
-    const TomlEntry* entry = root_.find(name);
-    if (entry == nullptr) return empty;
-    if (entry->value.type == TomlValue::Type::array) {
-      throw Error(Error::Kind::input, fmt::format("{}:{}: {} is a list: one table, [{}], is needed", file_,
-                                                  entry->line, name, name));
-    }
-    return entry->value;
-  }
-
-  const TomlValue& required_value_of(const std::string& name, const char* meaning) const {
-    if (root_.find(name) == nullptr) {
-      throw Error(Error::Kind::input,
-                  fmt::format("{}:1: [{}] is missing; needed: {}", file_, name, meaning));
-    }
-    return value_of(name);
-  }
-
-  TableReader table(const std::string& name, Words keys) const {
-    const TomlValue& value = value_of(name);
-    return TableReader(value, file_, fmt::format("[{}]", name), value.line, std::move(keys));
-  }
-
-  TableReader required_table(const std::string& name, const char* meaning, Words keys) const {
-    required_value_of(name, meaning);
-    return table(name, std::move(keys));
-  }
-
-  void read_mesh() {
-    const TableReader mesh = required_table("mesh", "a shape, a file, or points and triangles",
-                                            {"shape", "size", "nodes", "diagonal", "radius", "rings", "file",
-                                             "points", "triangles", "thickness"});
-    static const std::array<std::string, 3> sources{"shape", "file", "points"};
-    const std::string source = mesh.exactly_one(sources);
-    if (source == "shape") read_shape(mesh);
-    if (source != "shape") refuse_other_keys(mesh, {"size", "nodes", "diagonal", "radius", "rings"}, "shape");
-    if (source == "file") read_mesh_file(mesh);
-    if (source != "points") refuse_other_keys(mesh, {"triangles"}, "points");
-    if (source == "points") read_points(mesh);
-    scene_.mesh.thickness = mesh.number("thickness", positive_length, 1.0);
-  }
-
-  // Keys that mean nothing beside the chosen ones.
-  static void refuse_other_keys(const TableReader& mesh, const Words& keys, const std::string& owner) {
-    for (const std::string& key : keys) {
-      if (const TomlValue* value = mesh.find(key)) {
-        mesh.refuse(key, *value, fmt::format("goes with {} only; leave it out here", owner));
-      }
-    }
-  }
-
-  void read_shape(const TableReader& mesh) {
-    static const std::array<std::string, 2> shapes{"rectangle", "disk"};
-    static const std::array<std::string, 3> diagonals{"falling", "rising", "alternating"};
-    constexpr int most = std::numeric_limits<int>::max();
-    const bool is_disk = mesh.choice("shape", shapes, 0) == 1;
-    if (is_disk) {
-      refuse_other_keys(mesh, {"size", "nodes", "diagonal"}, "shape = \"rectangle\"");
-      const double radius = mesh.required_number("radius", positive_length, "the disk's radius");
-      const TomlValue& rings =
-          mesh.require("rings", "the number of rings of triangles, 1 or more, is needed");
-      const int count = mesh.integer("rings", rings, 1, most, "whole number");
-      mesh.attribute("rings", rings, [&] { scene_.mesh = disk(radius, count); });
-      return;
-    }
-    refuse_other_keys(mesh, {"radius", "rings"}, "shape = \"disk\"");
-    const TomlValue& size = mesh.require("size", "[width, height] (m) is needed");
-    const Vec2 extent = mesh.pair("size", size, positive_length);
-    const TomlValue& nodes =
-        mesh.require("nodes", "the numbers of nodes [across, upwards], each 2 or more, are needed");
-    if (nodes.type != TomlValue::Type::array || nodes.items.size() != 2) {
-      mesh.refuse("nodes", nodes, "two whole numbers [across, upwards], each 2 or more, are needed");
-    }
-    const int nx = mesh.integer("nodes[0]", nodes.items[0], 2, most, "whole number");
-    const int ny = mesh.integer("nodes[1]", nodes.items[1], 2, most, "whole number");
-    const auto diagonal = static_cast<Diagonal>(mesh.choice("diagonal", diagonals, 0));
-    mesh.attribute("nodes", nodes, [&] { scene_.mesh = rectangle(extent, nx, ny, diagonal); });
-  }
-
-  void read_mesh_file(const TableReader& mesh) {
-    const TomlValue& file = *mesh.find("file");
-    const std::string name = mesh.text("file", {});
-    if (name.empty()) mesh.refuse("file", file, "the name of a Gmsh file (.msh) is needed");
-    const std::filesystem::path path = folder_ / name;
-    mesh.attribute("file", file, [&] {
-      LeftOutNodes left_out;
-      scene_.mesh = read_msh(path, &left_out);
-      note_left_out(left_out);
-      scene_.files.push_back(path.string());
-      note_turned(prepare(scene_.mesh, path.string()));
-    });
-  }
-
-  void read_points(const TableReader& mesh) {
-    for (const auto& row : mesh.rows("points", *mesh.find("points"), 2, "[x, y]").rows) {
-      scene_.mesh.points.push_back({row[0], row[1]});
-    }
-    const TomlValue& triangles =
-        mesh.require("triangles", "a list of [i, j, k], three numbers of points, is needed");
-    for (const auto& row :
-         mesh.integer_rows("triangles", triangles, 3, 0, scene_.mesh.node_count() - 1, "[i, j, k]")) {
-      scene_.mesh.triangles.push_back({row[0], row[1], row[2]});
-    }
-    note_turned(prepare(scene_.mesh, mesh.where()));
-  }
-
-  void note_left_out(const LeftOutNodes& nodes) {
-    if (nodes.count == 0) return;
-    scene_.notes.push_back(
-        nodes.count == 1 ? fmt::format("1 node without a triangle was left out: tag {}", nodes.first_tag)
-                         : fmt::format("{} nodes without a triangle were left out, the "
-                                       "first of them tag {}",
-                                       nodes.count, nodes.first_tag));
-  }
-
-  void note_turned(int triangles) {
-    if (triangles == 0) return;
-    scene_.notes.push_back(triangles == 1
-                               ? "1 clockwise triangle was turned round"
-                               : fmt::format("{} clockwise triangles were turned round", triangles));
-  }
-
-  void read_material() {
-    MaterialReading reading = rheo::read_material(
-        required_value_of("material",
-                          "lambda_ela, mu_ela, lambda_vis, mu_vis and density (or a preset, parts or data)"),
-        file_, folder_);
-    scene_.material = std::move(reading.material);
-    scene_.origin = std::move(reading.origin);
-    scene_.files.insert(scene_.files.end(), reading.files.begin(), reading.files.end());
-    scene_.notes.insert(scene_.notes.end(), reading.notes.begin(), reading.notes.end());
-  }
-
   void read_body_force() {
-    const TableReader body = table("body_force", {"acceleration"});
+    const TableReader body = tables_.table("body_force", {"acceleration"});
     scene_.body_acceleration = body.pair("acceleration", {.unit = "m/s^2"}, {});
   }
 
-  const std::vector<TomlValue>& list(const std::string& name) const {
-    const TomlEntry* entry = root_.find(name);
-    return tables_of(entry == nullptr ? nullptr : &entry->value, file_, name);
-  }
-
-  void read_items() {
-    ItemReader items(scene_.mesh, scene_.files, file_, folder_);
-    if (const TomlEntry* edges = root_.find("edges")) items.add_groups(*edges);
-    for (const TomlValue& value : list("fix")) scene_.fixes.push_back(items.fix(value));
-    for (const TomlValue& value : list("move")) scene_.moves.push_back(items.move(value));
-    for (const TomlValue& value : list("constraint")) scene_.constraints.push_back(items.constraint(value));
-    for (const TomlValue& value : list("traction")) scene_.tractions.push_back(items.traction(value));
-    for (const TomlValue& value : list("probe")) scene_.probes.push_back(items.probe(value));
-  }
-
   void read_time() {
-    const TableReader time = required_table(
+    const TableReader time = tables_.required_table(
         "time", "duration",
         {"duration", "frame_rate", "integrator", "step", "accuracy", "baumgarte", "constraints"});
     static const std::array<std::string, 4> integrators{"rk4", "euler", "exponential", "implicit"};
@@ -250,12 +100,12 @@ class SceneReader {
   }
 
   void read_render() {
-    const TableReader render = table("render", {"color", "branch", "range", "size"});
+    const TableReader render = tables_.table("render", {"color", "branch", "range", "size", "sheet"});
     static const std::array<std::string, 5> colors{"w_lambda", "w_mu", "w", "speed", "none"};
     PictureSettings& p = scene_.picture;
     p.color = static_cast<ColorBy>(render.choice("color", colors, 0));
     if (const TomlValue* branch = render.find("branch")) {
-      p.branch = render.integer("branch", *branch, 0, static_cast<int>(scene_.material.branch_count()),
+      p.branch = render.integer("branch", *branch, 0, static_cast<int>(most_branches(scene_)),
                                 "Maxwell branch of the material, or 0 for all");
     }
     if (const TomlValue* range = render.find("range"); range != nullptr && range->text != "auto") {
@@ -282,12 +132,29 @@ class SceneReader {
                                    max_picture_side, "whole number of pixels");
       }
     }
+    if (const TomlValue* sheet = render.find("sheet")) read_sheet(render, *sheet);
     render.locate([&] { validate(p); });
+  }
+
+  void read_sheet(const TableReader& render, const TomlValue& sheet) {
+    std::vector<double>& times = scene_.picture.sheet;
+    bool fits = sheet.type == TomlValue::Type::array && !sheet.items.empty();
+    for (std::size_t k = 0; fits && k < sheet.items.size(); ++k) {
+      const TomlValue& item = sheet.items[k];
+      fits = item.is_number() && item.number >= 0.0 && item.number <= scene_.time.duration &&
+             (times.empty() || item.number > times.back());
+      if (fits) times.push_back(item.number);
+    }
+    if (!fits)
+      render.refuse("sheet", sheet,
+                    fmt::format("a list of times, strictly rising from 0 to the duration, {:g} s, is needed",
+                                scene_.time.duration));
   }
 
   const std::string& file_;
   std::filesystem::path folder_;
   TomlValue root_;
+  TableSet tables_;
   Scene scene_;
 };
 

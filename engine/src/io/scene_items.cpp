@@ -48,9 +48,10 @@ std::vector<Edge> read_edges(const TableReader& reader, std::string_view key, co
 // One table with what several kinds of items have in common.
 class ItemReader::Item : public TableReader {
  public:
-  Item(const ItemReader& owner, const TomlValue& table, const std::string& header,
-       std::vector<std::string> keys)
-      : TableReader(table, owner.file_, header, table.line, std::move(keys)), owner_(owner) {}
+  Item(const ItemReader& owner, const TomlValue& table, const char* name, std::vector<std::string> keys)
+      : TableReader(table, owner.file_, fmt::format("[[{}{}]]", owner.name_, name), table.line,
+                    std::move(keys)),
+        owner_(owner) {}
 
   std::vector<Edge> edges(const TomlValue& value) const {
     if (value.type != TomlValue::Type::string) {
@@ -132,13 +133,18 @@ class ItemReader::Item : public TableReader {
 };
 
 ItemReader::ItemReader(Mesh& mesh, std::vector<std::string>& files, std::string file,
-                       std::filesystem::path folder)
-    : mesh_(mesh), files_(files), edges_(mesh), file_(std::move(file)), folder_(std::move(folder)) {}
+                       std::filesystem::path folder, std::string owner)
+    : mesh_(mesh),
+      files_(files),
+      edges_(mesh),
+      file_(std::move(file)),
+      folder_(std::move(folder)),
+      name_(std::move(owner)) {}
 
 void ItemReader::add_groups(const TomlEntry& table) {
   std::vector<std::string> names;
   for (const TomlEntry& entry : table.value.entries) names.push_back(entry.key);
-  const TableReader reader(table.value, file_, "[edges]", table.line, names);
+  const TableReader reader(table.value, file_, fmt::format("[{}edges]", name_), table.line, names);
   for (const TomlEntry& entry : table.value.entries) {
     if (mesh_.edge_groups.count(entry.key) != 0) {
       reader.refuse(one_line(entry.key), entry.value,
@@ -150,7 +156,7 @@ void ItemReader::add_groups(const TomlEntry& table) {
 }
 
 Fix ItemReader::fix(const TomlValue& table) const {
-  const Item item(*this, table, "[[fix]]", {"edges", "nodes", "axis", "from", "until"});
+  const Item item(*this, table, "fix", {"edges", "nodes", "axis", "from", "until"});
   Fix fix;
   fix.where = item.where();
   fix.nodes = item.group();
@@ -160,7 +166,7 @@ Fix ItemReader::fix(const TomlValue& table) const {
 }
 
 Move ItemReader::move(const TomlValue& table) const {
-  const Item item(*this, table, "[[move]]", {"edges", "nodes", "axis", "from", "until", "keys", "profile"});
+  const Item item(*this, table, "move", {"edges", "nodes", "axis", "from", "until", "keys", "profile"});
   Move move;
   move.where = item.where();
   move.nodes = item.group();
@@ -176,7 +182,7 @@ Move ItemReader::move(const TomlValue& table) const {
 }
 
 Constraint ItemReader::constraint(const TomlValue& table) const {
-  const Item item(*this, table, "[[constraint]]", {"terms", "value"});
+  const Item item(*this, table, "constraint", {"terms", "value"});
   Constraint constraint;
   constraint.where = item.where();
   const std::string form = "[node, \"x\" or \"y\", coefficient]";
@@ -205,7 +211,7 @@ Constraint ItemReader::constraint(const TomlValue& table) const {
 }
 
 Traction ItemReader::traction(const TomlValue& table) const {
-  const Item item(*this, table, "[[traction]]", {"edges", "vector", "keys", "from", "until"});
+  const Item item(*this, table, "traction", {"edges", "vector", "keys", "from", "until"});
   Traction traction;
   traction.where = item.where();
   traction.edges = item.edges(item.require("edges", "a group's name or [[i, j], ...] is needed"));
@@ -221,7 +227,7 @@ Traction ItemReader::traction(const TomlValue& table) const {
 }
 
 Probe ItemReader::probe(const TomlValue& table) const {
-  const Item item(*this, table, "[[probe]]", {"name", "edges", "nodes"});
+  const Item item(*this, table, "probe", {"name", "edges", "nodes"});
   Probe probe;
   probe.where = item.where();
   const TomlValue& name = item.require("name", "the beginning of its columns in history.csv is needed");

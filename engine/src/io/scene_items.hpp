@@ -19,8 +19,9 @@ namespace rheo {
 class ItemReader {
  public:
   // `mesh` is prepared; its groups may be added to. `files` gets the tables of keys that are opened.
-  // `folder`: where relative paths start.
-  ItemReader(Mesh& mesh, std::vector<std::string>& files, std::string file, std::filesystem::path folder);
+  // `folder`: where relative paths start. `owner`: what the tables' names begin with ("body.").
+  ItemReader(Mesh& mesh, std::vector<std::string>& files, std::string file, std::filesystem::path folder,
+             std::string owner = {});
 
   // Adds the groups of [edges] to the mesh.
   void add_groups(const TomlEntry& table);
@@ -39,6 +40,7 @@ class ItemReader {
   MeshEdges edges_;
   std::string file_;
   std::filesystem::path folder_;
+  std::string name_;  // of the tables' owner
 };
 
 }  // namespace rheo

@@ -1,0 +1,116 @@
+#include "stress_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "rheo/error.hpp"
+#include "rheo/simulation.hpp"
+
+namespace rheo::test {
+namespace {
+
+// The scene in `length.steps` steps of h, its load let go after a tenth of them.
+Scene in_steps(const Scene& scene, IntegratorKind integrator, double h, const StressLength& length) {
+  Scene s = scene;
+  s.time.integrator = integrator;
+  s.time.step = h;
+  s.time.duration = length.steps * h;
+  s.time.frame_rate = length.outputs / s.time.duration;
+  for (Traction& traction : s.tractions) traction.window.until = 0.1 * s.time.duration;
+  return s;
+}
+
+struct Course {
+  bool diverged = false;
+  double worst_energy = 0.0;  // of kinetic + stored, over the work, at outputs before it diverged
+  bool finite = true;
+};
+
+// What the loads would give a body that nothing resists, by the lightest node: rounding leaves a share of it
+// where constraints hold against all of them.
+double unresisted_energy(const Scene& scene) {
+  double lightest = std::numeric_limits<double>::infinity(), force = 0.0;
+  for (int t = 0; t < scene.mesh.triangle_count(); ++t) {
+    const std::size_t r =
+        scene.region_of_triangle.empty() ? 0 : static_cast<std::size_t>(scene.region_of_triangle[t]);
+    const double density = r == 0 ? scene.material.density : scene.regions[r - 1].material.density;
+    lightest = std::min(lightest, density * scene.mesh.thickness * signed_area(scene.mesh, t) / 12);
+  }
+  double until = 0.0;
+  for (const Traction& traction : scene.tractions) {
+    for (const Edge& e : traction.edges) {
+      const Vec2 a = scene.mesh.points[static_cast<std::size_t>(e[0])],
+                 b = scene.mesh.points[static_cast<std::size_t>(e[1])];
+      force += scene.mesh.thickness * std::hypot(b.x - a.x, b.y - a.y) *
+               std::hypot(traction.keys[0].p.x, traction.keys[0].p.y);
+    }
+    until = std::max(until, std::min(traction.window.until, scene.time.duration));
+  }
+  return force * force * until * until / (2 * lightest);
+}
+
+Course course_of(const Scene& scene, const SimulationOptions& options) {
+  Simulation simulation(scene, options);
+  Course course;
+  double start = 0.0;
+  const double rounding = 1e-26 * unresisted_energy(scene);
+  for (std::int64_t k = 0; k < output_count(scene.time); ++k) {
+    if (simulation.advance(output_time(scene.time, k))) {
+      course.diverged = true;
+      return course;
+    }
+    const Energies now = simulation.energies();
+    const double energy = now.kinetic + now.stored;
+    course.finite = course.finite && std::isfinite(energy);
+    // Euler's first steps under a load have speed before way: its start is the moment the load lets go.
+    const bool loaded = scene.time.integrator == IntegratorKind::euler && k <= output_count(scene.time) / 10;
+    start = loaded ? energy : std::max(start, now.work);
+    if (energy > rounding) course.worst_energy = std::max(course.worst_energy, energy / start);
+  }
+  return course;
+}
+
+}  // namespace
+
+StressOutcome stress(const StressScene& stress, IntegratorKind integrator, const StressLength& length) {
+  StressOutcome out;
+  const auto broken = [&](std::string text) { out.broken.push_back(std::move(text)); };
+  const Scene first = in_steps(stress.scene, integrator, 1e-300, {1, 1});
+  Scene probe = first;
+  probe.time.step = 1.0;
+  probe.time.duration = 1.0;
+  probe.time.frame_rate = 1.0;
+  out.predicted = Simulation(probe, {.allow_unstable = true}).stable_step();
+  out.truth = true_limit(stress.scene, integrator);
+  if (out.predicted > out.truth.high * (1 + 1e-9))
+    broken(fmt::format("predicted {:.6g} s, true limit {:.6g} s", out.predicted, out.truth.high));
+  if (out.predicted < 0.95 * out.truth.low)
+    broken(fmt::format("predicted {:.4f} of the true limit", out.predicted / out.truth.low));
+  if (std::isfinite(out.predicted) && out.predicted > 0.0) {
+    const Course course = course_of(in_steps(stress.scene, integrator, 0.99 * out.predicted, length), {});
+    out.worst_energy = course.worst_energy;
+    if (course.diverged) broken("diverged at 0.99 of the predicted step");
+    if (!course.finite) broken("a number that is not finite");
+    if (course.worst_energy > 1 + 1e-9)
+      broken(fmt::format("energy {:.9g} of the work at 0.99 of the predicted step", course.worst_energy));
+  }
+  if (!std::isfinite(out.truth.high) || !(out.truth.high > 0.0)) return out;
+  const Scene beyond = in_steps(stress.scene, integrator, 1.05 * out.truth.high, length);
+  try {
+    const Simulation accepted(beyond);
+    out.refused_beyond = false;
+    broken("1.05 of the true limit is accepted");
+  } catch (const Error&) {
+  }
+  const Course wild = course_of(beyond, {.allow_unstable = true});
+  out.grew = wild.diverged;
+  if (!wild.finite) broken("beyond the limit: a number that is not finite");
+  if (wild.worst_energy > 1.001)
+    broken(fmt::format("beyond the limit: an output shows {:.4g} of the work", wild.worst_energy));
+  return out;
+}
+
+}  // namespace rheo::test

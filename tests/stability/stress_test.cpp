@@ -1,0 +1,27 @@
+// The quick part of the stress matrix (rheo_stress runs all of it).
+
+#include <gtest/gtest.h>
+
+#include "stress_run.hpp"
+
+namespace rheo::test {
+namespace {
+
+class Stress : public testing::TestWithParam<IntegratorKind> {};
+
+TEST_P(Stress, NoPromiseIsBroken) {
+  for (int number = 0; number < 40; ++number) {
+    const StressScene scene = stress_scene(1, number);
+    if (!scene.scene.regions.empty()) continue;
+    const StressOutcome outcome = stress(scene, GetParam(), {2000, 20});
+    for (const std::string& text : outcome.broken)
+      ADD_FAILURE() << number << " (" << scene.mesh << ", " << scene.material << ", " << scene.constraints
+                    << "): " << text;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Explicit, Stress, testing::Values(IntegratorKind::rk4),
+                         [](const auto& i) { return i.param == IntegratorKind::rk4 ? "Rk4" : "Euler"; });
+
+}  // namespace
+}  // namespace rheo::test
