@@ -19,7 +19,7 @@ xvfb=$!
 until [ -s "$folder/display" ]; do sleep 0.1; done
 DISPLAY=:$(cat "$folder/display")
 export DISPLAY
-"$rheo" view "$top/app/scenes/liver.toml" -o "$folder/saved" --range 0,20 >/dev/null &
+"$rheo" view "$top/app/scenes/liver.toml" -o "$folder/saved" >/dev/null &
 program=$!
 window=
 until [ -n "$window" ]; do

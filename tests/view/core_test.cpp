@@ -109,7 +109,7 @@ TEST(ViewCore, AnotherMaterialGoesOnFromTheSameShape) {
   EXPECT_EQ(display.hand.hold, Hold::push);
   EXPECT_NEAR(display.hand.traction.x, 300.0, 1.0);
   // Its books go on; what the other stiffness makes of the same residual forces is not the hand's work.
-  EXPECT_GE(display.energies.work, books.energies.work);
+  EXPECT_NEAR(display.energies.work, books.energies.work, 0.05 * books.energies.work);  // of one tick
   EXPECT_GE(display.energies.dissipated, books.energies.dissipated);
   EXPECT_NEAR(app::view::drift_of(display), 0.0, 1e-6 * display.energies.work);
   EXPECT_FALSE(core.session());

@@ -157,7 +157,7 @@ void Ui::lay_out(const Input& input) {
   const float s = settings_.scale;
   const auto px = [s](double size) { return static_cast<int>(std::lround(size * static_cast<double>(s))); };
   window_ = {input.width, input.height};
-  panel_width_ = panels_ && input.width >= px(panel_room) ? px(318) : 0;
+  panel_width_ = panels_ && input.width >= px(panel_room) ? px(334) : 0;
   strip_height_ = plots_ && input.height >= px(strip_room) && input.width >= px(panel_room) ? px(196) : 0;
   area_ = {panel_width_, 0, std::max(input.width - panel_width_, rheo::min_picture_size[0]),
            std::max(input.height - strip_height_, rheo::min_picture_size[1])};
