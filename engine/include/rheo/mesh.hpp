@@ -32,6 +32,7 @@ struct Mesh {
   std::map<std::string, std::vector<Edge>> edge_groups;
   // Named triangles: a Gmsh file's physical surfaces.
   std::map<std::string, std::vector<std::int32_t>> triangle_groups;
+  std::map<int, std::string> triangle_group_of_number;  // by Gmsh's number
 
   int node_count() const { return static_cast<int>(points.size()); }
   int triangle_count() const { return static_cast<int>(triangles.size()); }

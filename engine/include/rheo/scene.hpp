@@ -127,6 +127,7 @@ struct PictureSettings {
   bool range_auto = true;
   std::array<double, 2> range{0.0, 1.0};  // where not automatic
   std::array<int, 2> size{1280, 720};     // pixels
+  std::vector<double> sheet;  // times of the sheet's shapes, strictly rising [s]; empty: as suits the run
 };
 
 // A further material in the mesh. All materials of a scene have the same kind of mass.
@@ -149,6 +150,7 @@ struct Scene {
   Mesh mesh;  // prepared; of all bodies
   Material material;
   MaterialOrigin origin;                         // of the material, for reports
+  std::string material_name;                     // for reports; empty: it has none
   std::vector<Region> regions;                   // materials 1, 2, ... beside `material`, which is 0
   std::vector<std::int32_t> region_of_triangle;  // which of them each triangle is of; empty: all 0
   std::vector<BodyPart> bodies;                  // empty: one body

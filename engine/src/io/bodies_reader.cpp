@@ -28,11 +28,12 @@ class Assembly {
  public:
   explicit Assembly(Scene& scene) : scene_(scene) {}
 
-  void add(Scene&& body, const std::string& name) {
+  // `where`: of the body's material, for messages.
+  void add(Scene&& body, const std::string& name, const std::string& where) {
     first_node_ = scene_.mesh.node_count();
     BodyPart part{name, first_node_, body.mesh.node_count(), scene_.mesh.triangle_count(),
                   body.mesh.triangle_count()};
-    add_materials(body, name);
+    add_materials(body, name, where);
     add_mesh(body.mesh, name);
     for (Fix& fix : body.fixes) shift(fix.nodes);
     for (Move& move : body.moves) shift(move.nodes);
@@ -68,6 +69,7 @@ class Assembly {
       any_material_ = true;
       scene_.material = material;
       scene_.origin = origin;
+      scene_.material_name = name;
       return 0;
     }
     if (scene_.material == material) return 0;
@@ -77,9 +79,10 @@ class Assembly {
     return static_cast<std::int32_t>(scene_.regions.size());
   }
 
-  void add_materials(const Scene& body, const std::string& name) {
-    std::vector<std::int32_t> number{
-        material_number(body.material, body.origin, name, fmt::format("{}: [body.material]", name))};
+  void add_materials(const Scene& body, const std::string& name, const std::string& where) {
+    const std::string own =
+        body.material_name.empty() ? name : fmt::format("{}.{}", name, body.material_name);
+    std::vector<std::int32_t> number{material_number(body.material, body.origin, own, where)};
     for (const Region& region : body.regions)
       number.push_back(material_number(region.material, region.origin,
                                        fmt::format("{}.{}", name, region.name), region.where));
@@ -155,7 +158,8 @@ Scene read_bodies(const TomlValue& root, const std::string& file, const std::fil
                       body.mesh.thickness, thickness));
     thickness = body.mesh.thickness;
     place(body.mesh, reader.pair("position", metres, {}), reader.number("angle", radians, 0.0));
-    assembly.add(std::move(body), name);
+    assembly.add(std::move(body), name,
+                 fmt::format("{}:{}: [body.material]", file, reader.find("material")->line));
   }
   scene.mesh.thickness = thickness;
   if (scene.regions.empty()) scene.region_of_triangle.clear();

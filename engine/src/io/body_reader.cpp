@@ -153,6 +153,7 @@ class BodyReader {
     if (of.empty() || std::find(of.begin(), of.end(), 0) != of.end()) return;
     scene_.material = scene_.regions.front().material;
     scene_.origin = scene_.regions.front().origin;
+    scene_.material_name = scene_.regions.front().name;
     scene_.regions.erase(scene_.regions.begin());
     for (std::int32_t& number : of) --number;
     if (scene_.regions.empty()) of.clear();

@@ -96,7 +96,9 @@ class MeshMaker {
       for (std::size_t i = 0; i < groups.size(); ++i) {
         if (groups[i] == 0) continue;
         const auto triangle = static_cast<std::int32_t>(several ? kept_as_[i] : i);
-        mesh_.triangle_groups[group_name(content_.surface_names, groups[i])].push_back(triangle);
+        const std::string name = group_name(content_.surface_names, groups[i]);
+        mesh_.triangle_groups[name].push_back(triangle);
+        mesh_.triangle_group_of_number[groups[i]] = name;
       }
     }
   }

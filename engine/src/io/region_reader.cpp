@@ -67,7 +67,13 @@ std::vector<std::int32_t> in_physical(const TableReader& reader, const Mesh& mes
   const bool by_number = value.type == TomlValue::Type::integer;
   if (!by_number && value.type != TomlValue::Type::string)
     reader.refuse("physical", value, "the name or number of a physical surface is needed");
-  const std::string name = by_number ? fmt::format("physical_{}", value.integer) : value.text;
+  std::string name = value.text;
+  if (by_number) {
+    const auto known =
+        std::find_if(mesh.triangle_group_of_number.begin(), mesh.triangle_group_of_number.end(),
+                     [&](const auto& group) { return group.first == value.integer; });
+    name = known == mesh.triangle_group_of_number.end() ? std::string() : known->second;
+  }
   if (const auto group = mesh.triangle_groups.find(name); group != mesh.triangle_groups.end())
     return group->second;
   if (mesh.triangle_groups.empty())

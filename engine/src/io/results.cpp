@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cassert>
@@ -104,14 +105,23 @@ void write_head(AtomicFile& file, const char* type) {
 
 }  // namespace
 
-void write_state_csv(const std::filesystem::path& path, const Mesh& mesh, const StateView& state) {
+void write_state_csv(const std::filesystem::path& path, const Mesh& mesh, const StateView& state,
+                     const PartsView& parts) {
   assert(fits(mesh, state));
   AtomicFile file(path);
-  std::string text = "node,x,y,ux,uy,vx,vy,w_lambda_x,w_lambda_y,w_mu_x,w_mu_y\n";
+  std::string text = "node,x,y,ux,uy,vx,vy,w_lambda_x,w_lambda_y,w_mu_x,w_mu_y";
+  text += parts.bodies.empty() ? "\n" : ",body\n";
+  std::size_t body = 0;
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
     fmt::format_to(std::back_inserter(text), "{},{:.17g},{:.17g}", i, mesh.points[i].x, mesh.points[i].y);
     for (const auto& block : {state.u, state.v, state.w_lambda, state.w_mu}) {
       fmt::format_to(std::back_inserter(text), ",{:.17g},{:.17g}", block[2 * i], block[2 * i + 1]);
+    }
+    if (!parts.bodies.empty()) {
+      while (body + 1 < parts.bodies.size() &&
+             i >= static_cast<std::size_t>(parts.bodies[body + 1].first_node))
+        ++body;
+      fmt::format_to(std::back_inserter(text), ",{}", body + 1);
     }
     text += '\n';
     if (text.size() > block_bytes) {
@@ -123,7 +133,8 @@ void write_state_csv(const std::filesystem::path& path, const Mesh& mesh, const 
   file.commit();
 }
 
-void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const StateView& state) {
+void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const StateView& state,
+               const PartsView& parts) {
   assert(fits(mesh, state));
   constexpr unsigned char vtk_triangle = 5;
   AtomicFile file(path);
@@ -160,6 +171,14 @@ void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const StateV
   const bool apart = !state.pull_lambda.empty();
   stress(mesh, apart ? state.pull_lambda : state.w_lambda, apart ? state.pull_mu : state.w_mu, tensor);
   write_array(file, "stress", 3, tensor, names);
+  std::vector<std::int64_t> bodies(mesh.triangles.size(), 1), regions(mesh.triangles.size(), 0);
+  for (std::size_t b = 0; b < parts.bodies.size(); ++b) {
+    const BodyPart& part = parts.bodies[b];
+    std::fill_n(bodies.begin() + part.first_triangle, part.triangle_count, static_cast<std::int64_t>(b) + 1);
+  }
+  std::copy(parts.region_of_triangle.begin(), parts.region_of_triangle.end(), regions.begin());
+  write_array(file, "body", 1, bodies);
+  write_array(file, "region", 1, regions);
   file.write("      </CellData>\n    </Piece>\n  </UnstructuredGrid>\n</VTKFile>\n");
   file.commit();
 }

@@ -100,7 +100,7 @@ class SceneReader {
   }
 
   void read_render() {
-    const TableReader render = tables_.table("render", {"color", "branch", "range", "size"});
+    const TableReader render = tables_.table("render", {"color", "branch", "range", "size", "sheet"});
     static const std::array<std::string, 5> colors{"w_lambda", "w_mu", "w", "speed", "none"};
     PictureSettings& p = scene_.picture;
     p.color = static_cast<ColorBy>(render.choice("color", colors, 0));
@@ -132,7 +132,23 @@ class SceneReader {
                                    max_picture_side, "whole number of pixels");
       }
     }
+    if (const TomlValue* sheet = render.find("sheet")) read_sheet(render, *sheet);
     render.locate([&] { validate(p); });
+  }
+
+  void read_sheet(const TableReader& render, const TomlValue& sheet) {
+    std::vector<double>& times = scene_.picture.sheet;
+    bool fits = sheet.type == TomlValue::Type::array && !sheet.items.empty();
+    for (std::size_t k = 0; fits && k < sheet.items.size(); ++k) {
+      const TomlValue& item = sheet.items[k];
+      fits = item.is_number() && item.number >= 0.0 && item.number <= scene_.time.duration &&
+             (times.empty() || item.number > times.back());
+      if (fits) times.push_back(item.number);
+    }
+    if (!fits)
+      render.refuse("sheet", sheet,
+                    fmt::format("a list of times, strictly rising from 0 to the duration, {:g} s, is needed",
+                                scene_.time.duration));
   }
 
   const std::string& file_;

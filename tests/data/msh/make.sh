@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes the tests' meshes from plate.geo and groups.geo with gmsh (Debian 12: 4.8.4).
+# Makes the tests' meshes from plate.geo, groups.geo and layers.geo with gmsh (Debian 12: 4.8.4).
 set -e
 cd "$(dirname "$0")"
 mesh() {  # output, input, options...
@@ -22,3 +22,7 @@ mesh version1.msh groups.geo -format msh1
 mesh plate.stl groups.geo -format stl
 mesh plate.vtk groups.geo -format vtk
 mesh plate.mesh groups.geo -format mesh
+mesh layers22.msh layers.geo -format msh22           # triangles in several physical surfaces
+mesh layers22b.msh layers.geo -format msh22 -bin
+mesh layers41.msh layers.geo -format msh41
+mesh layers41b.msh layers.geo -format msh41 -bin
