@@ -64,6 +64,22 @@ TEST(StateCsv, HoldsEveryNumberToTheLastBit) {
   EXPECT_FALSE(std::getline(lines, line));
 }
 
+TEST(StateCsv, EndsWithTheBodysNumberWhereThereAreSeveral) {
+  const Sample sample;
+  const auto nodes = static_cast<std::int32_t>(sample.mesh.points.size());
+  const std::vector<BodyPart> bodies{{"a", 0, 7, 0, 6}, {"b", 7, nodes - 7, 6, 1}};
+  const fs::path file = fresh_folder("state_bodies") / "state.csv";
+  write_state_csv(file, sample.mesh, sample.view(), {bodies, {}});
+  std::istringstream lines(read_text(file));
+  std::string line;
+  ASSERT_TRUE(std::getline(lines, line));
+  EXPECT_EQ(line, "node,x,y,ux,uy,vx,vy,w_lambda_x,w_lambda_y,w_mu_x,w_mu_y,body");
+  for (std::int32_t i = 0; i < nodes; ++i) {
+    ASSERT_TRUE(std::getline(lines, line));
+    EXPECT_EQ(line.substr(line.rfind(',')), i < 7 ? ",1" : ",2") << "node " << i;
+  }
+}
+
 TEST(Results, NameThePathThatCannotBeWritten) {
   const Sample sample;
   const fs::path file = fresh_folder("results_bad") / "none" / "x";
@@ -90,18 +106,25 @@ TEST(Vtu, IsReadByMeshio) {
   }
   const Sample sample;
   const fs::path folder = fresh_folder("vtu");
-  write_vtu(folder / "a.vtu", sample.mesh, sample.view());
+  const auto nodes = static_cast<std::int32_t>(sample.mesh.points.size());
+  const auto triangles = static_cast<std::int32_t>(sample.mesh.triangles.size());
+  const std::vector<BodyPart> bodies{{"a", 0, 7, 0, 6}, {"b", 7, nodes - 7, 6, triangles - 6}};
+  std::vector<std::int32_t> regions(sample.mesh.triangles.size(), 0);
+  regions[2] = 1;
+  write_vtu(folder / "a.vtu", sample.mesh, sample.view(), {bodies, regions});
   testing::write_text(folder / "read.py", R"(
 import sys, xml.dom.minidom, meshio
 xml.dom.minidom.parse(sys.argv[1])
 m = meshio.read(sys.argv[1])
 assert len(m.cells) == 1 and m.cells[0].type == "triangle"
-assert sorted(m.point_data) == ["u", "v", "w_lambda", "w_mu"] and sorted(m.cell_data) == ["strain", "stress"]
+assert sorted(m.point_data) == ["u", "v", "w_lambda", "w_mu"]
+assert sorted(m.cell_data) == ["body", "region", "strain", "stress"]
 def show(rows):
     for row in rows: print(" ".join(repr(float(x)) for x in row))
 show(m.points); show(m.cells[0].data)
 for name in ["u", "v", "w_lambda", "w_mu"]: show(m.point_data[name])
 for name in ["strain", "stress"]: show(m.cell_data[name][0])
+for name in ["body", "region"]: show([[x] for x in m.cell_data[name][0]])
 )");
   const std::string command = fmt::format("{} '{}' '{}' > '{}' 2>&1", python, (folder / "read.py").string(),
                                           (folder / "a.vtu").string(), (folder / "out.txt").string());
@@ -119,6 +142,9 @@ for name in ["strain", "stress"]: show(m.cell_data[name][0])
   expected.insert(expected.end(), tensor.begin(), tensor.end());
   stress(sample.mesh, sample.w_lambda, sample.w_mu, tensor);
   expected.insert(expected.end(), tensor.begin(), tensor.end());
+
+  for (std::int32_t t = 0; t < triangles; ++t) expected.push_back(t < 6 ? 1.0 : 2.0);
+  expected.insert(expected.end(), regions.begin(), regions.end());
 
   std::istringstream words(read_text(folder / "out.txt"));
   std::vector<double> found;
