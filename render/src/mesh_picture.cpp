@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "body_labels.hpp"
 #include "camera.hpp"
 #include "canvas.hpp"
 #include "color_bar.hpp"
@@ -33,13 +34,15 @@ struct Body {
         title(layout.title),
         bar{layout.scalar_name, layout.scalar_unit, layout.range},
         bounds(usable_bounds(layout.bounds)),
-        arrow_scale(layout.arrow_scale) {}
+        arrow_scale(layout.arrow_scale),
+        labels(layout.labels) {}
 
   BoundaryChains boundary;
   std::string title;
   ColorBar bar;
   std::array<double, 4> bounds;
   double arrow_scale;
+  BodyLabels labels;
 };
 
 }  // namespace
@@ -68,7 +71,8 @@ struct MeshPicture::Impl {
         gl(c.gl()),
         body(layout),
         target(gl, c.width(), c.height()),
-        canvas(gl, c.width(), c.height(), layout.title + layout.scalar_name + layout.scalar_unit),
+        canvas(gl, c.width(), c.height(),
+               layout.title + layout.scalar_name + layout.scalar_unit + body.labels.characters()),
         pass(gl, layout, body.boundary, c.width(), c.height()),
         arrows(body.boundary.edges, layout.triangles, {layout.rest.begin(), layout.rest.end()}) {}
 
@@ -127,6 +131,8 @@ struct MeshPicture::Impl {
     pass.fill(camera, std::max(0.8f, 0.9f * unit));
     Color rest = theme::ink;
     rest.a = 130;
+    pass.interfaces(camera, {theme::paper, theme::interface_rim_width(unit), 0});
+    pass.interfaces(camera, {theme::ink, theme::interface_width(unit), 0});
     pass.rest_outline(camera, {rest, std::max(1.0f, 1.2f * unit), 9 * unit});
     pass.outline(camera, {theme::ink, theme::outline_width(unit), 0});
     arrows.draw(canvas, camera, frame, body.arrow_scale, longest_arrow, value_area);
@@ -135,6 +141,22 @@ struct MeshPicture::Impl {
   // As much of the title as leaves `taken` pixels at its right.
   std::string title_beside(const Parts& p, float taken) const {
     return canvas.fit(TextSize::title, body.title, p.title.width() - taken);
+  }
+
+  // Of every panel; empty where some name has no place.
+  std::vector<std::vector<Rect>> sheet_labels(const SheetLayout& layout,
+                                              std::span<const MeshFrame> frames) const {
+    std::vector<std::vector<Rect>> all;
+    const float text = canvas.text_size(TextSize::small);
+    for (std::size_t i = 0; i < frames.size() && !body.labels.empty(); ++i) {
+      const SheetLayout::Panel& panel = layout.panels[i];
+      Rect area = panel.cell;
+      area.y0 = std::min(area.y1, panel.time_at.y + 0.8f * text);
+      all.push_back(body.labels.boxes(canvas, panel.camera, frames[i].positions, TextSize::small,
+                                      layout.label_gap, area));
+      if (std::ranges::any_of(all.back(), [](const Rect& r) { return !(r.width() > 0); })) return {};
+    }
+    return all;
   }
 
   void draw_heading(const Parts& p, const std::string& title) {
@@ -149,8 +171,14 @@ struct MeshPicture::Impl {
     // The arrows of other frames are not known: room for them on every side.
     const float arrow = arrow_length(p.body);
     const float margin = line_room(p.body) + (body.arrow_scale > 0 ? arrow : 0.0f);
-    const Framing framing(body.bounds, {margin, margin, margin, margin});
-    draw_body(framing.fit(p.body), frame, 1, arrow, p.body);
+    const float below = margin + body.labels.room(canvas, TextSize::normal);
+    const Framing framing(body.bounds, {margin, margin, margin, below});
+    const Camera camera = framing.fit(p.body);
+    draw_body(camera, frame, 1, arrow, p.body);
+    body.labels.draw(
+        canvas,
+        body.labels.boxes(canvas, camera, frame.positions, TextSize::normal, line_room(p.body), p.body),
+        TextSize::normal);
     draw_heading(p, title);
     canvas.flush();
     still_texts = canvas.texts();
@@ -225,10 +253,13 @@ Image MeshPicture::sheet(std::span<const MeshFrame> frames) {
     const std::vector<TractionArrows::Arrow> more = m.arrows.arrows(frame, m.body.arrow_scale);
     arrows.insert(arrows.end(), more.begin(), more.end());
   }
-  const SheetLayout layout = layout_sheet(m.canvas, p.body, m.body.bounds, times, arrows);
+  const SheetLayout layout = layout_sheet(m.canvas, p.body, m.body.bounds, times, arrows,
+                                          m.body.labels.room(m.canvas, TextSize::small));
+  const std::vector<std::vector<Rect>> labels = m.sheet_labels(layout, frames);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const SheetLayout::Panel& panel = layout.panels[i];
     m.draw_body(panel.camera, frames[i], layout.hatch_size, layout.longest_arrow, {});
+    if (!labels.empty()) m.body.labels.draw(m.canvas, labels[i], TextSize::small);
     m.canvas.text(panel.time_at, Align::left, TextSize::small, theme::ink, panel.time);
   }
   m.draw_heading(p, m.title_beside(p, 0.0f));
