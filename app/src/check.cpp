@@ -21,6 +21,7 @@
 #include "rheo/deformation.hpp"
 #include "rheo/simulation.hpp"
 #include "run_notes.hpp"
+#include "scene_parts.hpp"
 
 namespace app {
 namespace {
@@ -65,6 +66,16 @@ double area_of(const rheo::Mesh& mesh) {
   return area;
 }
 
+void print_bodies(const rheo::Scene& scene, const std::vector<MaterialPart>& materials) {
+  list("body", scene.bodies, [&](const rheo::BodyPart& body) {
+    std::string names;
+    for (const int number : materials_in(scene, body))
+      names += (names.empty() ? "" : ", ") + materials[static_cast<std::size_t>(number)].name;
+    return fmt::format("{}: {} nodes, {} triangles{}", body.name, body.node_count, body.triangle_count,
+                       materials.size() > 1 ? "; material " + names : "");
+  });
+}
+
 void print_mesh(const rheo::Scene& scene) {
   const rheo::Mesh& mesh = scene.mesh;
   row("mesh", "{} nodes, {} triangles, {} boundary edges", mesh.node_count(), mesh.triangle_count(),
@@ -75,10 +86,19 @@ void print_mesh(const rheo::Scene& scene) {
   row("edge groups", "{}", groups);
   const double area = area_of(mesh);
   row("area", "{:.6g} m^2, thickness {:g} m", area, mesh.thickness);
-  const rheo::Material& material = scene.material;
-  for (const auto& [name, text] : material_rows(scene)) row(name.c_str(), "{}", text);
-  row("mass", "{:.6g} kg ({}), density {:g} kg/m^3", area * mesh.thickness * material.density,
-      material.mass == rheo::Mass::lumped ? "lumped" : "consistent", material.density);
+  const std::vector<MaterialPart> materials = materials_of(scene);
+  print_bodies(scene, materials);
+  double mass = 0.0;
+  for (const MaterialPart& part : materials) {
+    if (materials.size() > 1)
+      row("material", "{}: {} triangle{}, density {:g} kg/m^3", part.name, part.triangles,
+          plural(static_cast<std::size_t>(part.triangles)), part.material->density);
+    for (const auto& [name, text] : material_rows(*part.material, *part.origin))
+      row(name.c_str(), "{}", text);
+    mass += part.area * mesh.thickness * part.material->density;
+  }
+  row("mass", "{:.6g} kg ({}){}", mass, scene.material.mass == rheo::Mass::lumped ? "lumped" : "consistent",
+      materials.size() > 1 ? "" : fmt::format(", density {:g} kg/m^3", scene.material.density));
 }
 
 void print_loads(const rheo::Scene& scene) {
@@ -116,6 +136,23 @@ std::string stable_text(double step) {
   return fmt::format("{:.6g} s", step);
 }
 
+// Where relaxation or the viscous part alone makes explicit steps many times shorter than the vibrations do.
+std::string stiffness_advice(const rheo::Scene& scene, const rheo::Spectrum& spectrum) {
+  constexpr double many_times = 10.0;
+  const double step = rheo::stable_step(spectrum, rheo::IntegratorKind::rk4);
+  if (scene.time.integrator == rheo::IntegratorKind::exponential ||
+      scene.time.integrator == rheo::IntegratorKind::implicit || !(step > 0.0) || std::isinf(step))
+    return {};
+  constexpr double rk4_imaginary_limit = 2.8284271247461903;  // of RK4's stability region
+  const double vibrations =
+      spectrum.omega_max > 0.0 ? rk4_imaginary_limit / spectrum.omega_max : scene.time.duration;
+  if (vibrations < many_times * step || scene.time.duration < 1e4 * step) return {};
+  return fmt::format(
+      "the {} alone makes explicit steps so short, vibrations would allow {:.3g} s: try --integrator "
+      "exponential or implicit",
+      spectrum.viscous_max > 0.0 ? "viscous part or relaxation" : "relaxation", vibrations);
+}
+
 // What a run would say to the step and the integrator.
 enum class Verdict {
   accepted,
@@ -151,6 +188,8 @@ void print_steps(const rheo::Simulation& simulation, rheo::IntegratorKind integr
   row("omega_max", "{:.6g} rad/s ({} Lanczos steps); by single elements {:.6g} rad/s", spectrum.omega_max,
       spectrum.lanczos_steps, spectrum.element_bound);
   row("stable rk4", "{}", stable_text(rheo::stable_step(spectrum, rheo::IntegratorKind::rk4)));
+  if (const std::string advice = stiffness_advice(simulation.scene(), spectrum); !advice.empty())
+    row("advice", "{}", advice);
   row("stable euler", "{}{}", stable_text(euler_limit.step),
       euler_limit.bound && euler_limit.step > 0.0 ? " at least (a safe bound)" : "");
   if (plan) row("accuracy", "{}", plan_text(*plan));

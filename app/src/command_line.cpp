@@ -41,11 +41,12 @@ constexpr const char* examples =
 constexpr int most_threads = 64;
 constexpr int fewest_shapes = 2;
 constexpr int most_shapes = 64;
+constexpr int most_branches = 1000;
 
 // Option texts as they were typed; read after CLI11 has sorted them.
 struct Texts {
   std::string scene, folder, integrator, step, tolerance, accuracy, duration, frame_rate, threads;
-  std::string size, color, range, backend, sheet;
+  std::string size, color, branch, range, backend, sheet;
   std::string kernel, csv, budget, seconds;
   bool vtu = false, force = false, quiet = false, allow_unstable = false, no_energies = false, plot = false;
 };
@@ -136,6 +137,12 @@ void add_picture_options(CLI::App& command, Texts& texts) {
                   "w_lambda, w_mu, w (both) [Pa m], speed [m/s] or none: magnitude at\n"
                   "the nodes; a scene's default is w_lambda")
       ->type_name("NAME")
+      ->group(group);
+  command
+      .add_option("--branch", texts.branch,
+                  "w_lambda, w_mu or w of one Maxwell branch, 1, 2, ...; 0: of all of them;\n"
+                  "a scene's default is 0")
+      ->type_name("K")
       ->group(group);
   command
       .add_option("--range", texts.range,
@@ -374,6 +381,7 @@ Options read_values(const Texts& texts, const CLI::App& command) {
 
   if (given("--size")) options.size = picture_size("--size", texts.size);
   if (given("--color")) options.color = color_by("--color", texts.color);
+  if (given("--branch")) options.branch = whole_number("--branch", texts.branch, 0, most_branches);
   if (given("--range")) options.range = color_range("--range", texts.range);
   if (given("--backend")) options.backend = draw_backend("--backend", texts.backend);
   if (given("--sheet")) options.sheet = whole_number("--sheet", texts.sheet, fewest_shapes, most_shapes);

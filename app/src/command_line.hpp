@@ -43,6 +43,7 @@ struct Options {
   std::optional<TypedNumber> duration;
   std::optional<TypedNumber> frame_rate;
   std::optional<rheo::ColorBy> color;
+  std::optional<int> branch;
   std::optional<ColorRange> range;
   std::optional<std::array<int, 2>> size;
 

@@ -65,7 +65,8 @@ std::string titled(const rheo::Scene& scene, const std::string& what, const std:
   return scene.title.empty() ? alone : fmt::format("{}: {}", scene.title, what);
 }
 
-void draw_fit(const rheo::Scene& scene, render::Context& context, OutputFolder& folder) {
+void draw_fit(const rheo::Scene& scene, const std::string& ending, render::Context& context,
+              OutputFolder& folder) {
   const rheo::MeasuredMaterial& measured = *scene.origin.measured;
   const FitCurves fit = fit_curves_of(measured);
   const bool young = measured.modulus == rheo::MeasuredModulus::young;
@@ -84,13 +85,14 @@ void draw_fit(const rheo::Scene& scene, render::Context& context, OutputFolder& 
     picture.add("fit", fit.x, fit.fit);
     picture.add_points("measured", fit.data_x, fit.data);
   }
-  picture.draw(context, folder, "fit.png");
+  picture.draw(context, folder, "fit" + ending + ".png");
 }
 
 }  // namespace
 
 std::vector<std::string> draw_material(const rheo::Scene& scene, const MaterialCurves& c,
-                                       const Options& options, OutputFolder& folder) {
+                                       const std::string& ending, const Options& options,
+                                       OutputFolder& folder) {
   std::vector<std::string> notes;
   const auto context =
       render::open_context(backend_of(options.backend), scene.picture.size[0], scene.picture.size[1]);
@@ -104,7 +106,7 @@ std::vector<std::string> draw_material(const rheo::Scene& scene, const MaterialC
   if (relaxation.empty())
     notes.push_back("no relaxation.png: after t = 0 there is no stress, nothing is elastic or relaxes");
   else
-    relaxation.draw(*context, folder, "relaxation.png");
+    relaxation.draw(*context, folder, "relaxation" + ending + ".png");
 
   Curves moduli(titled(scene, "complex moduli", "Complex moduli"));
   moduli.plot.x_label = "frequency [Hz]";
@@ -116,9 +118,9 @@ std::vector<std::string> draw_material(const rheo::Scene& scene, const MaterialC
   if (moduli.empty())
     notes.push_back("no moduli.png: the material resists nothing");
   else
-    moduli.draw(*context, folder, "moduli.png");
+    moduli.draw(*context, folder, "moduli" + ending + ".png");
 
-  if (scene.origin.measured) draw_fit(scene, *context, folder);
+  if (scene.origin.measured) draw_fit(scene, ending, *context, folder);
   return notes;
 }
 

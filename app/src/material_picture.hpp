@@ -1,4 +1,5 @@
-// The pictures of `rheo check --plot`: relaxation.png, moduli.png, fit.png; all axes logarithmic.
+// The pictures of `rheo check --plot`: relaxation.png, moduli.png, fit.png, of a scene's second material
+// relaxation_1.png and so on; all axes logarithmic.
 //
 // What has relaxed to less than a ten-thousandth of the largest value is not shown.
 //
@@ -11,9 +12,10 @@
 
 namespace app {
 
-// Needs a machine that can draw (no_picture in bench_picture.hpp). A picture of nothing is left out; returns
-// notes for the user about that.
+// Needs a machine that can draw (no_picture in bench_picture.hpp). `ending`: of the names, "" or "_1". A
+// picture of nothing is left out; returns notes for the user about that.
 std::vector<std::string> draw_material(const rheo::Scene& scene, const MaterialCurves& curves,
-                                       const Options& options, OutputFolder& folder);
+                                       const std::string& ending, const Options& options,
+                                       OutputFolder& folder);
 
 }  // namespace app

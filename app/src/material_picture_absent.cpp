@@ -3,8 +3,8 @@
 
 namespace app {
 
-std::vector<std::string> draw_material(const rheo::Scene&, const MaterialCurves&, const Options&,
-                                       OutputFolder&) {
+std::vector<std::string> draw_material(const rheo::Scene&, const MaterialCurves&, const std::string&,
+                                       const Options&, OutputFolder&) {
   return {};
 }
 

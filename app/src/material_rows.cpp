@@ -67,12 +67,11 @@ void add_part(const char* name, const rheo::Moduli& part, const char* unit, Rows
 
 }  // namespace
 
-Rows material_rows(const rheo::Scene& scene) {
-  const rheo::Material& material = scene.material;
+Rows material_rows(const rheo::Material& material, const rheo::MaterialOrigin& origin) {
   Rows rows;
-  add_preset(scene.origin, rows);
-  add_conversions(scene.origin, rows);
-  if (scene.origin.measured) add_measured(*scene.origin.measured, rows);
+  add_preset(origin, rows);
+  add_conversions(origin, rows);
+  if (origin.measured) add_measured(*origin.measured, rows);
   for (std::size_t k = 0; k < material.branch_count(); ++k) {
     const rheo::MaxwellBranch b = material.branch(k);
     const bool others = material.elastic.lambda > 0.0 || material.elastic.mu > 0.0 ||

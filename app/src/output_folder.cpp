@@ -33,17 +33,27 @@ std::string_view without_part(std::string_view name) {
   return name;
 }
 
-// PREFIX, at least five digits, SUFFIX
-bool is_numbered(std::string_view name, std::string_view prefix, std::string_view suffix) {
-  if (name.size() < prefix.size() + 5 + suffix.size()) return false;
+// PREFIX, at least `digits` digits, SUFFIX
+bool is_numbered(std::string_view name, std::string_view prefix, std::string_view suffix,
+                 std::size_t digits = 5) {
+  if (name.size() < prefix.size() + digits + suffix.size()) return false;
   if (!name.starts_with(prefix) || !name.ends_with(suffix)) return false;
   name.remove_prefix(prefix.size());
   name.remove_suffix(suffix.size());
   return std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; });
 }
 
+// relaxation_2.csv: of a scene's third material.
+bool is_of_material(std::string_view name) {
+  for (const std::string_view suffix : {".csv", ".png"})
+    for (const std::string_view prefix : {"relaxation_", "moduli_", "fit_"})
+      if (is_numbered(name, prefix, suffix, 1)) return true;
+  return false;
+}
+
 bool is_top_file(std::string_view name) {
-  return std::ranges::find(top_names, without_part(name)) != top_names.end();
+  return is_of_material(without_part(name)) ||
+         std::ranges::find(top_names, without_part(name)) != top_names.end();
 }
 
 bool is_frame(std::string_view name) {

@@ -63,6 +63,15 @@ rheo::Scene load_scene(const Options& options) {
   if (options.frame_rate) scene.time.frame_rate = options.frame_rate->value;
   require_countable(options, scene.time);
   if (options.color) scene.picture.color = *options.color;
+  if (options.branch) {
+    const std::size_t most = rheo::most_branches(scene);
+    if (static_cast<std::size_t>(*options.branch) > most)
+      throw Failure(
+          ExitCode::usage,
+          fmt::format("--branch '{}': the scene's materials have {} Maxwell branch{}, 0 is all of them",
+                      *options.branch, most, most == 1 ? "" : "es"));
+    scene.picture.branch = *options.branch;
+  }
   if (options.size) scene.picture.size = *options.size;
   if (options.range) {
     scene.picture.range_auto = options.range->automatic;

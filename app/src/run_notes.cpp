@@ -37,7 +37,8 @@ void note_keys(const std::string& item, const std::vector<Key>& keys, const rheo
 std::vector<std::string> run_notes(const rheo::Scene& scene) {
   std::vector<std::string> notes = scene.notes;
   const rheo::TimeSettings& time = scene.time;
-  if (const int pieces = rheo::piece_count(scene.mesh); pieces > 1)
+  if (const int pieces = rheo::piece_count(scene.mesh);
+      pieces > std::max(1, static_cast<int>(scene.bodies.size())))
     notes.push_back(
         fmt::format("the mesh is {} pieces that share no node: they do not feel each other", pieces));
   for (const rheo::Fix& fix : scene.fixes) note_window(fix.where, fix.window, time.duration, notes);

@@ -13,6 +13,7 @@
 #include "option_values.hpp"
 #include "rheo/io/atomic_file.hpp"
 #include "rheo/versions.hpp"
+#include "scene_parts.hpp"
 
 namespace app {
 namespace {
@@ -207,6 +208,16 @@ Json material_of(const rheo::Material& material) {
           {"density", material.density}};
 }
 
+Json bodies_of(const rheo::Scene& scene) {
+  Json bodies = Json::array();
+  for (const rheo::BodyPart& body : scene.bodies)
+    bodies.push_back({{"name", body.name},
+                      {"nodes", body.node_count},
+                      {"triangles", body.triangle_count},
+                      {"materials", materials_in(scene, body)}});
+  return bodies;
+}
+
 Json fit_of(const std::optional<rheo::MeasuredMaterial>& measured) {
   if (!measured) return nullptr;
   const rheo::PronySeries& series = measured->fit.series;
@@ -222,6 +233,18 @@ Json fit_of(const std::optional<rheo::MeasuredMaterial>& measured) {
           {"error_largest_at", measured->fit.largest_at}};
 }
 
+Json materials_json(const rheo::Scene& scene) {
+  Json materials = Json::array();
+  for (const MaterialPart& part : materials_of(scene)) {
+    Json json{{"number", part.number}, {"name", part.name}, {"triangles", part.triangles}};
+    json.update(material_of(*part.material));
+    json["preset"] = part.origin->preset.empty() ? Json(nullptr) : Json(part.origin->preset);
+    json["fit"] = fit_of(part.origin->measured);
+    materials.push_back(std::move(json));
+  }
+  return materials;
+}
+
 }  // namespace
 
 void write_check_report(const std::filesystem::path& path, const Options& options, const rheo::Scene& scene,
@@ -230,6 +253,8 @@ void write_check_report(const std::filesystem::path& path, const Options& option
   json["preset"] = scene.origin.preset.empty() ? Json(nullptr) : Json(scene.origin.preset);
   json["material"] = material_of(scene.material);
   json["fit"] = fit_of(scene.origin.measured);
+  json["bodies"] = bodies_of(scene);
+  json["materials"] = materials_json(scene);
   json["files"] = report.files;
   json["notes"] = report.notes;
   json["exit_status"] = static_cast<int>(ExitCode::done);
@@ -268,6 +293,8 @@ void write_run_report(const std::filesystem::path& path, const Options& options,
   Json json = beginning(options, scene, report);
   json["settings"] = settings_of(options, simulation, report);
   json["mesh"] = mesh_of(scene);
+  json["bodies"] = bodies_of(scene);
+  json["materials"] = materials_json(scene);
   json["outputs"] = report.outputs;
   json["files"] = report.files;
   json["counters"] = counters_of(simulation.counters(), report);

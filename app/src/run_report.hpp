@@ -4,7 +4,10 @@
 //   text), read_files (path, bytes, fnv1a_64 of each file that the scene names), title
 //   settings: integrator, kernel (csr, edge or element), step_asked (seconds or "auto"), step_bound,
 //   largest_step (used), stable_step, tolerance (exponential only), plan (of an accuracy: as AccuracyPlan, or
-//   null), duration, frame_rate, threads, encoder_threads, renderer mesh: nodes, triangles outputs; files;
+//   null), duration, frame_rate, threads, encoder_threads, renderer mesh: nodes, triangles
+//   bodies: name, nodes, triangles, materials (their numbers) of each of several
+//   materials: number, name, triangles and all numbers of each
+//   outputs; files;
 //   counters; seconds by phase; notes; warnings; exit_status; divergence or null
 //
 // A run writes it twice: when it begins, with exit_status null, nothing counted yet and as files those to
@@ -86,8 +89,8 @@ struct BenchReport {
   std::string advice;
 };
 
-// Of check --plot: the material's numbers and the fit's take the place of settings, outputs, counters and
-// seconds.
+// Of check --plot: the materials' numbers and the fits' take the place of settings, outputs, counters and
+// seconds; preset, material and fit are those of material 0.
 struct CheckReport {
   std::string scene_text;
   std::vector<Fingerprint> read_files;

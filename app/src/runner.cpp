@@ -22,6 +22,7 @@
 #include "rheo/simulation.hpp"
 #include "run_notes.hpp"
 #include "run_report.hpp"
+#include "scene_parts.hpp"
 #include "sequence.hpp"
 #include "vtu_series.hpp"
 
@@ -69,8 +70,8 @@ std::string divergence_text(const rheo::Divergence& divergence, const rheo::Simu
   const rheo::TimeSettings& time = simulation.scene().time;
   const rheo::Vec2 at = simulation.scene().mesh.points[static_cast<std::size_t>(divergence.node)];
   const std::string where =
-      fmt::format("diverged at t = {:.6g} s at node {} (at rest x = {:.4g} m, y = {:.4g} m)", divergence.t,
-                  divergence.node, at.x, at.y);
+      fmt::format("diverged at t = {:.6g} s at {} (at rest x = {:.4g} m, y = {:.4g} m)", divergence.t,
+                  node_text(simulation.scene(), divergence.node), at.x, at.y);
   const double used = simulation.step_bound(), stable = divergence.stable_step;
   if (stable <= 0.0)
     return fmt::format("{}: no step of {} is stable for this scene, {:.4g} s was used: use --integrator rk4",
@@ -194,7 +195,8 @@ void run_scene(const Options& options) {
   folder.made("history.csv");
   if (!passed.divergence) {
     rheo::write_state_csv(folder.file("state.csv"), simulation.scene().mesh,
-                          {simulation.u(), simulation.v(), simulation.w_lambda(), simulation.w_mu()});
+                          {simulation.u(), simulation.v(), simulation.w_lambda(), simulation.w_mu()},
+                          {simulation.scene().bodies, simulation.scene().region_of_triangle});
     folder.made("state.csv");
   }
   if (vtu) vtu->finish();

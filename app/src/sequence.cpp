@@ -13,6 +13,7 @@
 #include "render/plot.hpp"
 #include "render/png.hpp"
 #include "render_backend.hpp"
+#include "scene_parts.hpp"
 #include "sheet_frames.hpp"
 
 namespace app {
@@ -109,8 +110,11 @@ struct Sequence::Impl {
     {
       const Timed timed(seconds.draw);
       const int room = render::sheet_room(scene.picture.size[0], scene.picture.size[1]);
+      const std::vector<double>& asked = scene.picture.sheet;
       for (const std::int64_t k :
-           sheet_frames(recorder.count(), scene.time.frame_rate, event_times(scene), shapes, room))
+           asked.empty() || shapes
+               ? sheet_frames(recorder.count(), scene.time.frame_rate, event_times(scene), shapes, room)
+               : frames_at(asked, recorder.count(), scene.time.frame_rate))
         frames.emplace_back(LoadedFrame{.bare = bare}).load(recorder, edges, k);
       for (const LoadedFrame& frame : frames) views.push_back(frame.view());
       image = picture.sheet(views);
@@ -173,12 +177,18 @@ void Sequence::draw(const rheo::Scene& scene, const Recorder& recorder, const Hi
   const std::vector<double> rest = flat(scene.mesh.points);
   const std::vector<int> triangles = flat_numbers(scene.mesh.triangles);
   const std::vector<int> boundary = flat_numbers(scene.mesh.edge_groups.at("boundary"));
+  const std::vector<int> interfaces = interfaces_of(scene);
+  std::vector<render::BodyLabel> labels;
+  for (const rheo::BodyPart& body : scene.bodies)
+    labels.push_back({body.name, body.first_node, body.node_count});
   const LoadedEdges edges(scene);
   const bool bare = nothing_to_colour(scene.picture, recorder);
   const ScalarText scalar = scalar_text(scene.picture.color);
   const render::MeshLayout layout{.rest = rest,
                                   .triangles = triangles,
                                   .boundary = boundary,
+                                  .interfaces = interfaces,
+                                  .labels = labels,
                                   .title = scene.title,
                                   .scalar_name = bare ? "" : scalar.name,
                                   .scalar_unit = bare ? "" : scalar.unit,

@@ -88,4 +88,15 @@ std::vector<std::int64_t> sheet_frames(std::int64_t outputs, double frame_rate,
   return frames;
 }
 
+std::vector<std::int64_t> frames_at(const std::vector<double>& times, std::int64_t outputs,
+                                    double frame_rate) {
+  std::vector<std::int64_t> frames;
+  for (const double t : times) {
+    const std::int64_t k = std::llround(t * frame_rate);
+    if (k < outputs && (frames.empty() || k > frames.back())) frames.push_back(k);
+  }
+  if (frames.empty()) frames.push_back(outputs - 1);
+  return frames;
+}
+
 }  // namespace app

@@ -19,4 +19,8 @@ std::vector<std::int64_t> sheet_frames(std::int64_t outputs, double frame_rate,
                                        const std::vector<double>& events, std::optional<int> wanted,
                                        int room);
 
+// Those nearest to these times, each once; times beyond the last output are left out.
+std::vector<std::int64_t> frames_at(const std::vector<double>& times, std::int64_t outputs,
+                                    double frame_rate);
+
 }  // namespace app

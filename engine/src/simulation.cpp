@@ -172,8 +172,15 @@ std::span<const double> Simulation::reaction_at(std::span<const HeldDof> held) {
 
 SavedState Simulation::save() const {
   const auto copy = [](std::span<const double> x) { return std::vector<double>(x.begin(), x.end()); };
-  SavedState saved{time(), copy(u()), copy(v()), {}, {}};
-  for (std::size_t k = 0; k < impl_->model.material.branch_count(); ++k) {
+  SavedState saved{time(), copy(u()), copy(v()), {}, {}, {}};
+  if (impl_->model.has_several_materials()) {
+    for (const BranchPart& branch : impl_->model.layout.branches) {
+      const double* const w = impl_->now().state().data() + branch.offset;
+      saved.parts.push_back(
+          {branch.modulus == Modulus::lambda, branch.region, branch.number, {w, w + branch.size}});
+    }
+  }
+  for (std::size_t k = 0; k < impl_->model.branch_count(); ++k) {
     saved.w_lambda.push_back(copy(w_lambda(k)));
     saved.w_mu.push_back(copy(w_mu(k)));
   }
@@ -188,10 +195,20 @@ void Simulation::resume(const SavedState& saved) {
   std::copy(saved.u.begin(), saved.u.end(), y.begin() + static_cast<std::ptrdiff_t>(layout.u()));
   std::copy(saved.v.begin(), saved.v.end(), y.begin() + static_cast<std::ptrdiff_t>(layout.v()));
   for (const BranchPart& branch : layout.branches) {
-    const auto& all = branch.modulus == Modulus::lambda ? saved.w_lambda : saved.w_mu;
+    const bool lambda = branch.modulus == Modulus::lambda;
+    const auto own = std::find_if(saved.parts.begin(), saved.parts.end(), [&](const SavedState::Part& part) {
+      return part.lambda == lambda && part.material == branch.region && part.branch == branch.number &&
+             part.w.size() == branch.size;
+    });
+    if (own != saved.parts.end()) {
+      std::copy(own->w.begin(), own->w.end(), y.begin() + static_cast<std::ptrdiff_t>(branch.offset));
+      continue;
+    }
+    const auto& all = lambda ? saved.w_lambda : saved.w_mu;
     if (branch.number >= all.size()) continue;
     const std::vector<double>& w = all[branch.number];
-    std::copy(w.begin(), w.end(), y.begin() + static_cast<std::ptrdiff_t>(branch.offset));
+    impl_->model.patches[branch.region].for_each_dof(
+        [&](std::size_t i, std::size_t j) { y[branch.offset + i] = w[j]; });
   }
   impl_->stepping.resume(saved.t, y);
 }

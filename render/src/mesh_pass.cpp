@@ -72,10 +72,10 @@ MeshPass::MeshPass(const Gl& gl, const MeshLayout& layout, const BoundaryChains&
       line_program_(gl, "line", {"ends", "along"}),
       mesh_array_(gl),
       dense_array_(gl),
-      line_array_(gl),
       corners_(gl),
       indices_(gl),
-      edges_(gl),
+      boundary_(gl),
+      interfaces_(gl),
       colors_(gl),
       nodes_(gl),
       rest_(gl) {
@@ -94,7 +94,8 @@ MeshPass::MeshPass(const Gl& gl, const MeshLayout& layout, const BoundaryChains&
   upload(rest_, layout.rest, {});
   upload_colors();
   upload_triangles(layout.triangles, layout.rest);
-  upload_boundary(boundary, layout.rest);
+  boundary_length_ = upload_lines(boundary, layout.rest, boundary_);
+  upload_lines(chain_boundary(layout.interfaces), layout.rest, interfaces_);
 }
 
 void MeshPass::make_texture(NodeTexture& nodes) const {
@@ -176,34 +177,36 @@ void MeshPass::upload_triangles(std::span<const int> triangles, std::span<const 
                  GL_STATIC_DRAW);
 }
 
-void MeshPass::upload_boundary(const BoundaryChains& boundary, std::span<const double> rest) {
+double MeshPass::upload_lines(const BoundaryChains& chains, std::span<const double> rest,
+                              LineSet& lines) const {
+  double length = 0;
   struct Vertex {
     std::array<GLint, 3> ends;
     GLfloat along;
   };
   std::vector<Vertex> vertices;
-  vertices.reserve(boundary.edges.size() * 3);
-  for (std::size_t chain = 0; chain < boundary.count(); ++chain) {
-    const std::size_t begin = boundary.offsets[chain], end = boundary.offsets[chain + 1];
+  vertices.reserve(chains.edges.size() * 3);
+  for (std::size_t chain = 0; chain < chains.count(); ++chain) {
+    const std::size_t begin = chains.offsets[chain], end = chains.offsets[chain + 1];
     double along = 0;
     for (std::size_t e = begin; e < end; ++e) {
-      const auto a = static_cast<std::size_t>(boundary.edges[2 * e]);
-      const auto b = static_cast<std::size_t>(boundary.edges[2 * e + 1]);
+      const auto a = static_cast<std::size_t>(chains.edges[2 * e]);
+      const auto b = static_cast<std::size_t>(chains.edges[2 * e + 1]);
       assert(a < node_count_ && b < node_count_);
       // The end of the edge that follows; -1 at the end of an open chain.
-      const GLint next = e + 1 < end              ? boundary.edges[2 * e + 3]
-                         : boundary.closed(chain) ? boundary.edges[2 * begin + 1]
-                                                  : -1;
+      const GLint next = e + 1 < end            ? chains.edges[2 * e + 3]
+                         : chains.closed(chain) ? chains.edges[2 * begin + 1]
+                                                : -1;
       for (int k = 0; k < 6; ++k)
         vertices.push_back(
             {{static_cast<GLint>(a), static_cast<GLint>(b), next}, static_cast<GLfloat>(along)});
       const double size = std::hypot(rest[2 * b] - rest[2 * a], rest[2 * b + 1] - rest[2 * a + 1]);
-      if (std::isfinite(size)) along += size, boundary_length_ += size;
+      if (std::isfinite(size)) along += size, length += size;
     }
   }
-  edge_vertex_count_ = static_cast<GLsizei>(vertices.size());
-  gl_.BindVertexArray(line_array_.id());
-  gl_.BindBuffer(GL_ARRAY_BUFFER, edges_.id());
+  lines.vertex_count = static_cast<GLsizei>(vertices.size());
+  gl_.BindVertexArray(lines.array.id());
+  gl_.BindBuffer(GL_ARRAY_BUFFER, lines.buffer.id());
   gl_.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(Vertex)), vertices.data(),
                  GL_STATIC_DRAW);
   gl_.EnableVertexAttribArray(0);
@@ -211,6 +214,7 @@ void MeshPass::upload_boundary(const BoundaryChains& boundary, std::span<const d
   gl_.EnableVertexAttribArray(1);
   gl_.VertexAttribPointer(1, 1, GL_FLOAT, GL_FALSE, sizeof(Vertex),
                           reinterpret_cast<const void*>(offsetof(Vertex, along)));
+  return length;
 }
 
 void MeshPass::place(const GlProgram& program, const Camera& camera, const NodeTexture& nodes) const {
@@ -259,12 +263,12 @@ void MeshPass::fill(const Camera& camera, float line_width) const {
 void MeshPass::outline(const Camera& camera, const LineStyle& style) const {
   // A strip of width d and length l has the area d l within a boundary of 2 l.
   const double width = boundary_length_ > 0 ? 2 * area_ / boundary_length_ * camera.scale : 0.0;
-  lines(camera, style, nodes_, width < 1.5 * style.width ? colored_ : 0.0f);
+  lines(boundary_, camera, style, nodes_, width < 1.5 * style.width ? colored_ : 0.0f);
 }
 
-void MeshPass::lines(const Camera& camera, const LineStyle& style, const NodeTexture& nodes,
-                     float colored) const {
-  if (edge_vertex_count_ == 0) return;
+void MeshPass::lines(const LineSet& set, const Camera& camera, const LineStyle& style,
+                     const NodeTexture& nodes, float colored) const {
+  if (set.vertex_count == 0) return;
   place(line_program_, camera, nodes);
   gl_.Uniform1f(line_program_.uniform("half_width"), style.width / 2);
   gl_.Uniform1f(line_program_.uniform("dash"), style.dash);
@@ -273,8 +277,8 @@ void MeshPass::lines(const Camera& camera, const LineStyle& style, const NodeTex
   gl_.Enable(GL_BLEND);
   gl_.BlendEquation(GL_FUNC_ADD);
   gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  gl_.BindVertexArray(line_array_.id());
-  gl_.DrawArrays(GL_TRIANGLES, 0, edge_vertex_count_);
+  gl_.BindVertexArray(set.array.id());
+  gl_.DrawArrays(GL_TRIANGLES, 0, set.vertex_count);
   gl_.Disable(GL_BLEND);
 }
 

@@ -41,7 +41,13 @@ class MeshPass {
   void fill(const Camera& camera, float line_width) const;
   // In the style's colour; in the scalar's where the body is so slender that it would hide all of it.
   void outline(const Camera& camera, const LineStyle& style) const;
-  void rest_outline(const Camera& camera, const LineStyle& style) const { lines(camera, style, rest_, 0); }
+  void rest_outline(const Camera& camera, const LineStyle& style) const {
+    lines(boundary_, camera, style, rest_, 0);
+  }
+  // Where materials meet.
+  void interfaces(const Camera& camera, const LineStyle& style) const {
+    lines(interfaces_, camera, style, nodes_, 0);
+  }
 
  private:
   struct NodeTexture {
@@ -58,8 +64,17 @@ class MeshPass {
   void upload_triangles(std::span<const int> triangles, std::span<const double> rest);
   void bind_colors(const GlProgram& program, float colored) const;
   void set_fill(const GlProgram& program) const;
-  void upload_boundary(const BoundaryChains& boundary, std::span<const double> rest);
-  void lines(const Camera& camera, const LineStyle& style, const NodeTexture& nodes, float colored) const;
+  // Edges to draw as lines.
+  struct LineSet {
+    explicit LineSet(const Gl& gl) : array(gl), buffer(gl) {}
+    GlVertexArray array;
+    GlBuffer buffer;
+    GLsizei vertex_count = 0;
+  };
+  // Returns their length at rest [m].
+  double upload_lines(const BoundaryChains& chains, std::span<const double> rest, LineSet& lines) const;
+  void lines(const LineSet& set, const Camera& camera, const LineStyle& style, const NodeTexture& nodes,
+             float colored) const;
   void place(const GlProgram& program, const Camera& camera, const NodeTexture& nodes) const;
 
   const Gl& gl_;
@@ -75,16 +90,15 @@ class MeshPass {
   GlProgram line_program_;
   GlVertexArray mesh_array_;
   GlVertexArray dense_array_;
-  GlVertexArray line_array_;
   GlBuffer corners_;
   GlBuffer indices_;
-  GlBuffer edges_;
+  LineSet boundary_;
+  LineSet interfaces_;
   GlTexture colors_;
   NodeTexture nodes_;
   NodeTexture rest_;
   std::vector<float> staging_;
   GLsizei corner_count_ = 0;
-  GLsizei edge_vertex_count_ = 0;
   double largest_height_ = 0;   // of all triangles at rest, each one's smallest [m]
   double area_ = 0;             // at rest [m^2]
   double boundary_length_ = 0;  // at rest [m]

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "body_labels.hpp"
 #include "camera.hpp"
 #include "canvas.hpp"
 #include "color_bar.hpp"
@@ -34,13 +35,15 @@ struct Body {
         title(layout.title),
         bar{layout.scalar_name, layout.scalar_unit, layout.range},
         bounds(usable_bounds(layout.bounds)),
-        arrow_scale(layout.arrow_scale) {}
+        arrow_scale(layout.arrow_scale),
+        labels(layout.labels) {}
 
   BoundaryChains boundary;
   std::string title;
   ColorBar bar;
   std::array<double, 4> bounds;
   double arrow_scale;
+  BodyLabels labels;
 };
 
 }  // namespace
@@ -70,7 +73,8 @@ struct MeshPicture::Impl {
         body(layout),
         view{.range = layout.range, .bounds = body.bounds, .arrow_scale = layout.arrow_scale},
         target(gl, width, height),
-        canvas(gl, width, height, layout.title + layout.scalar_name + layout.scalar_unit),
+        canvas(gl, width, height,
+               layout.title + layout.scalar_name + layout.scalar_unit + body.labels.characters()),
         pass(gl, layout, body.boundary, width, height),
         arrows(body.boundary.edges, layout.triangles, {layout.rest.begin(), layout.rest.end()}) {}
 
@@ -130,6 +134,8 @@ struct MeshPicture::Impl {
     pass.fill(camera, std::max(0.8f, 0.9f * unit));
     Color rest = canvas.palette().ink;
     rest.a = 130;
+    pass.interfaces(camera, {canvas.palette().paper, theme::interface_rim_width(unit), 0});
+    pass.interfaces(camera, {canvas.palette().ink, theme::interface_width(unit), 0});
     if (view.rest_shape == Show::yes)
       pass.rest_outline(camera, {rest, std::max(1.0f, 1.2f * unit), 9 * unit});
     pass.outline(camera, {canvas.palette().ink, theme::outline_width(unit), 0});
@@ -163,6 +169,22 @@ struct MeshPicture::Impl {
     return canvas.fit(TextSize::title, body.title, p.title.width() - taken);
   }
 
+  // Of every panel; empty where some name has no place.
+  std::vector<std::vector<Rect>> sheet_labels(const SheetLayout& layout,
+                                              std::span<const MeshFrame> frames) const {
+    std::vector<std::vector<Rect>> all;
+    const float text = canvas.text_size(TextSize::small);
+    for (std::size_t i = 0; i < frames.size() && !body.labels.empty(); ++i) {
+      const SheetLayout::Panel& panel = layout.panels[i];
+      Rect area = panel.cell;
+      area.y0 = std::min(area.y1, panel.time_at.y + 0.8f * text);
+      all.push_back(body.labels.boxes(canvas, panel.camera, frames[i].positions, TextSize::small,
+                                      layout.label_gap, area));
+      if (std::ranges::any_of(all.back(), [](const Rect& r) { return !(r.width() > 0); })) return {};
+    }
+    return all;
+  }
+
   void draw_heading(const Parts& p, const std::string& title) {
     const float y = (p.title.y0 + p.title.y1) / 2;
     canvas.text({p.title.x0, y}, Align::left, TextSize::title, canvas.palette().ink, title);
@@ -172,13 +194,18 @@ struct MeshPicture::Impl {
   // The arrows of other frames are not known: room for them on every side.
   Camera camera(const Parts& p) const {
     const float margin = line_room(p.body) + (body.arrow_scale > 0 ? arrow_length(p.body) : 0.0f);
-    return Framing(body.bounds, {margin, margin, margin, margin}).fit(p.body);
+    const float below = margin + body.labels.room(canvas, TextSize::normal);
+    return Framing(body.bounds, {margin, margin, margin, below}).fit(p.body);
   }
 
   // All of a frame but its time.
   void draw_still(const MeshFrame& frame, const Parts& p, const std::string& title) {
     begin();
-    draw_body(camera(p), frame, 1, arrow_length(p.body), p.body);
+    const Camera at = camera(p);
+    draw_body(at, frame, 1, arrow_length(p.body), p.body);
+    body.labels.draw(
+        canvas, body.labels.boxes(canvas, at, frame.positions, TextSize::normal, line_room(p.body), p.body),
+        TextSize::normal);
     draw_heading(p, title);
     canvas.flush();
     still_texts = canvas.texts();
@@ -301,10 +328,13 @@ Image MeshPicture::sheet(std::span<const MeshFrame> frames) {
     const std::vector<TractionArrows::Arrow> more = m.arrows.arrows(frame, m.body.arrow_scale);
     arrows.insert(arrows.end(), more.begin(), more.end());
   }
-  const SheetLayout layout = layout_sheet(m.canvas, p.body, m.body.bounds, times, arrows);
+  const SheetLayout layout = layout_sheet(m.canvas, p.body, m.body.bounds, times, arrows,
+                                          m.body.labels.room(m.canvas, TextSize::small));
+  const std::vector<std::vector<Rect>> labels = m.sheet_labels(layout, frames);
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const SheetLayout::Panel& panel = layout.panels[i];
     m.draw_body(panel.camera, frames[i], layout.hatch_size, layout.longest_arrow, {});
+    if (!labels.empty()) m.body.labels.draw(m.canvas, labels[i], TextSize::small);
     m.canvas.text(panel.time_at, Align::left, TextSize::small, m.canvas.palette().ink, panel.time);
   }
   m.draw_heading(p, m.title_beside(p, 0.0f));

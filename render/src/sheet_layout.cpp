@@ -13,11 +13,12 @@ namespace {
 class Sheet {
  public:
   Sheet(const Canvas& canvas, const Rect& area, const std::array<double, 4>& bounds,
-        std::span<const TractionArrows::Arrow> arrows)
+        std::span<const TractionArrows::Arrow> arrows, float label_room)
       : canvas_(canvas),
         area_(area),
         bounds_(bounds),
         arrows_(arrows),
+        label_room_(label_room),
         text_(canvas.text_size(TextSize::small)),
         normal_(canvas.text_size(TextSize::normal)) {}
 
@@ -54,6 +55,7 @@ class Sheet {
     const Rect first = grid_cell(c.grid, area_, 0);
     out.hatch_size = std::min(1.0f, line_room(first) / (0.6f * normal_));
     out.longest_arrow = arrow_length(first);
+    out.label_gap = line_room(first);
     const Framing fit = framing(first);
     // Where a time is wider than its cell it takes several; the others go without.
     const int cells = std::max(1, static_cast<int>(std::ceil((c.widest + 0.8f * text_) / first.width())));
@@ -88,7 +90,7 @@ class Sheet {
 
   Framing framing(const Rect& cell) const {
     const float margin = line_room(cell);
-    Framing f(bounds_, {margin, margin, margin, margin});
+    Framing f(bounds_, {margin, margin, margin, margin + std::min(label_room_, 0.3f * room(cell).height())});
     TractionArrows::add_to(f, canvas_, arrows_, arrow_length(cell));
     return f;
   }
@@ -97,14 +99,16 @@ class Sheet {
   Rect area_;
   std::array<double, 4> bounds_;
   std::span<const TractionArrows::Arrow> arrows_;
+  float label_room_;
   float text_, normal_;
 };
 
 }  // namespace
 
 SheetLayout layout_sheet(const Canvas& canvas, const Rect& area, const std::array<double, 4>& bounds,
-                         std::span<const double> times, std::span<const TractionArrows::Arrow> arrows) {
-  const Sheet sheet(canvas, area, bounds, arrows);
+                         std::span<const double> times, std::span<const TractionArrows::Arrow> arrows,
+                         float label_room) {
+  const Sheet sheet(canvas, area, bounds, arrows, label_room);
   std::vector<std::string> whole;
   for (const double t : times) whole.push_back(time_text(t));
   const Sheet::Choice with_name = sheet.choose(std::move(whole));

@@ -29,10 +29,13 @@ struct SheetLayout {
   std::vector<Panel> panels;
   float hatch_size = 1;
   float longest_arrow = 0;
+  float label_gap = 0;  // between a body and its name
 };
 
-// `bounds` as usable_bounds() makes them; `arrows` of all frames.
+// `bounds` as usable_bounds() makes them; `arrows` of all frames; `label_room`: height below
+// a shape for the names of its bodies.
 SheetLayout layout_sheet(const Canvas& canvas, const Rect& area, const std::array<double, 4>& bounds,
-                         std::span<const double> times, std::span<const TractionArrows::Arrow> arrows);
+                         std::span<const double> times, std::span<const TractionArrows::Arrow> arrows,
+                         float label_room = 0);
 
 }  // namespace render

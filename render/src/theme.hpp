@@ -32,6 +32,14 @@ inline constexpr Color faint{226, 229, 235};  // grids, separators
 inline constexpr std::array<Color, 6> series{
     {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}}};
 
+// Where materials meet: a dark line with a light rim, to be seen on every colour of the map.
+inline float interface_width(float unit) {
+  return std::max(1.0f, 1.3f * unit);
+}
+inline float interface_rim_width(float unit) {
+  return std::max(3.0f, 3.4f * unit);
+}
+
 // Of a body's outline, in a picture whose lines have the unit `unit`.
 inline float outline_width(float unit) {
   return std::max(1.4f, 2.0f * unit);

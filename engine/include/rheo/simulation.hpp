@@ -81,7 +81,14 @@ struct Counters {
 struct SavedState {
   double t = 0.0;
   std::vector<double> u, v;                         // 2n
-  std::vector<std::vector<double>> w_lambda, w_mu;  // by branch, 2n each
+  std::vector<std::vector<double>> w_lambda, w_mu;  // by branch, 2n each; where materials meet their mean
+  // Each material's own, where there are several.
+  struct Part {
+    bool lambda = true;
+    std::size_t material = 0, branch = 0;
+    std::vector<double> w;
+  };
+  std::vector<Part> parts;
 };
 
 // Ways to the same rheological force.

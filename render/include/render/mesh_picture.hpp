@@ -21,17 +21,25 @@ namespace render {
 
 class Context;
 
+// A body's name and its nodes.
+struct BodyLabel {
+  std::string text;
+  int first_node = 0, node_count = 0;
+};
+
 // What stays the same through a sequence; copied by MeshPicture.
 struct MeshLayout {
-  std::span<const double> rest;       // n x 2, reference positions
-  std::span<const int> triangles;     // m x 3
-  std::span<const int> boundary;      // k x 2, interior on the left
-  std::string title;                  // drawn at the top left; may be empty
-  std::string scalar_name;            // "|w_lambda|"; empty: no colour, no colour bar
-  std::string scalar_unit;            // "Pa m"
-  std::array<double, 2> range{0, 1};  // colour range of the whole sequence
-  std::array<double, 4> bounds{};     // x0, y0, x1, y1: what the camera must show, over the whole motion
-  double arrow_scale = 0.0;           // largest |traction| of the sequence [Pa]: gets the longest arrow
+  std::span<const double> rest;         // n x 2, reference positions
+  std::span<const int> triangles;       // m x 3
+  std::span<const int> boundary;        // k x 2, interior on the left
+  std::span<const int> interfaces{};    // k x 2, where materials meet: a line that stands out from the mesh's
+  std::span<const BodyLabel> labels{};  // of several bodies
+  std::string title;                    // drawn at the top left; may be empty
+  std::string scalar_name;              // "|w_lambda|"; empty: no colour, no colour bar
+  std::string scalar_unit;              // "Pa m"
+  std::array<double, 2> range{0, 1};    // colour range of the whole sequence
+  std::array<double, 4> bounds{};       // x0, y0, x1, y1: what the camera must show, over the whole motion
+  double arrow_scale = 0.0;             // largest |traction| of the sequence [Pa]: gets the longest arrow
 };
 
 struct TractionArrow {
