@@ -39,7 +39,8 @@ Scene random_scene(std::mt19937& random, Mass mass, int materials = 2, int colum
   Scene scene;
   scene.mesh = rectangle({1.0, 0.6}, columns, rows, Diagonal::alternating);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  for (Vec2& p : scene.mesh.points) p.x += 0.05 * unit(random), p.y += 0.05 * unit(random);
+  const double shift = 0.15 / columns;
+  for (Vec2& p : scene.mesh.points) p.x += shift * unit(random), p.y += 0.5 * shift * unit(random);
   prepare(scene.mesh);
   std::vector<Material> all;
   for (int k = 0; k < materials; ++k)
@@ -127,8 +128,8 @@ TEST(SeveralMaterials, GeneralConstraintsAndBaumgarteToo) {
     scene.constraints.push_back({{{5, Axis::x, 1.0}, {1, Axis::x, -1.0}}, 0.01, "tie"});
     if (k == 1) scene.time.constraints = ConstraintMethod::baumgarte;
     const auto exact = ExactSolution(scene).at(times);
-    scene.time.step = Simulation(scene).stable_step() / 32;
-    EXPECT_LT(run_error(exact, run(scene, Kernel::automatic)), 1e-5) << k;
+    scene.time.step = Simulation(scene).stable_step() / 16;
+    EXPECT_LT(run_error(exact, run(scene, Kernel::automatic)), 1e-4) << k;
     scene.time.integrator = IntegratorKind::implicit;
     scene.time.step = 0.0025;
     EXPECT_LT(run_error(exact, run(scene, Kernel::automatic)), 1e-5) << k;
@@ -393,10 +394,10 @@ TEST(SeveralMaterials, PatchTestAcrossAndAlongAnInterface) {
       scene.moves.push_back(
           {nodes_of(right), Axis::x, {}, {{0.0, {}, {}}, {0.5, {0.02, 0.0}, {}}}, Profile::smooth, "pull"});
     }
-    scene.time.duration = 60.0;
-    scene.time.integrator = IntegratorKind::implicit;
+    scene.time.duration = 6.0;
+    scene.time.integrator = IntegratorKind::exponential;
     Simulation simulation(scene);
-    ASSERT_FALSE(simulation.advance(60.0));
+    ASSERT_FALSE(simulation.advance(6.0));
     std::vector<double> sigma(3 * scene.mesh.triangles.size());
     simulation.stress(sigma);
     for (std::size_t e = 0; e < scene.mesh.triangles.size(); ++e) {
