@@ -87,7 +87,7 @@ TEST(SeveralMaterials, EveryKernelAndIntegratorFollowsTheExactSolution) {
   std::mt19937 random(31);
   for (int k = 0; k < exact_scenes; ++k) {
     const Mass mass = k % 2 == 0 ? Mass::lumped : Mass::consistent;
-    Scene scene = random_scene(random, mass);
+    Scene scene = random_scene(random, mass, 2, 3, 2);
     const auto exact = ExactSolution(scene).at(times);
     std::vector<Kernel> kernels{Kernel::csr};
     if (mass == Mass::lumped) kernels.push_back(Kernel::element);
@@ -123,7 +123,7 @@ TEST(SeveralMaterials, EveryKernelAndIntegratorFollowsTheExactSolution) {
 TEST(SeveralMaterials, GeneralConstraintsAndBaumgarteToo) {
   std::mt19937 random(32);
   for (int k = 0; k < 2; ++k) {
-    Scene scene = random_scene(random, k % 2 == 0 ? Mass::lumped : Mass::consistent);
+    Scene scene = random_scene(random, k % 2 == 0 ? Mass::lumped : Mass::consistent, 2, 3, 2);
     scene.moves.clear();
     scene.constraints.push_back({{{5, Axis::x, 1.0}, {1, Axis::x, -1.0}}, 0.01, "tie"});
     if (k == 1) scene.time.constraints = ConstraintMethod::baumgarte;
@@ -138,7 +138,7 @@ TEST(SeveralMaterials, GeneralConstraintsAndBaumgarteToo) {
 
 TEST(SeveralMaterials, AnAccuracyAskedForIsKept) {
   std::mt19937 random(33);
-  Scene scene = random_scene(random, Mass::lumped);
+  Scene scene = random_scene(random, Mass::lumped, 2, 3, 2);
   const auto exact = ExactSolution(scene).at(times);
   for (const double accuracy : {1e-3, 1e-8}) {
     scene.time.accuracy = accuracy;
@@ -224,8 +224,10 @@ TEST(SeveralMaterials, EnergyBalanceHasOrderFourAndDissipationNeverFalls) {
       }
       drifts.push_back(worst / scale);
     }
-    // Fast rates come to the order late.
-    EXPECT_GE(std::log2(drifts.front() / drifts.back()) / 2, 3.5) << k << ": " << drifts.front();
+    // Fast rates come to the order late; beside 1e-11 rounding shows.
+    if (drifts.front() > 1e-10) {
+      EXPECT_GE(std::log2(drifts.front() / drifts.back()) / 2, 3.5) << k << ": " << drifts.front();
+    }
     EXPECT_LT(drifts.back(), 1e-9) << k;
   }
 }
