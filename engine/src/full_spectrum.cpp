@@ -4,8 +4,7 @@
 
 namespace rheo {
 
-std::vector<std::complex<double>> full_spectrum(const Model& model, const ConstraintSolver& solver,
-                                                int most) {
+std::vector<std::complex<double>> full_spectrum(const Model& model, const ConstraintSolver& solver) {
   const auto size = static_cast<Eigen::Index>(model.layout.part);
   std::vector<Eigen::Index> free;
   for (Eigen::Index dof = 0; dof < size; ++dof) {
@@ -20,7 +19,7 @@ std::vector<std::complex<double>> full_spectrum(const Model& model, const Constr
   const std::vector<SharedRelaxation> relaxations = relaxations_of(materials);
   const auto n = static_cast<Eigen::Index>(free.size());
   const Eigen::Index parts = 1 + static_cast<Eigen::Index>(relaxations.size());
-  if (free.empty() || parts * n > most) return {};
+  if (free.empty() || parts * n > most_eigenvalues) return {};
 
   // P M^-1 (lambda J_lambda + mu J_mu) on the free degrees of freedom, a column at a time.
   const Vector target = Vector::Zero(static_cast<Eigen::Index>(solver.columns().size()));

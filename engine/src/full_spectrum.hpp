@@ -11,7 +11,7 @@
 //
 // Source   design: full operator where rates matter; Eigen's QR algorithm for the eigenvalues
 // Units    eigenvalues [1/s]
-// Errors   none: empty beyond `most` of them, or where nothing is free or stiff
+// Errors   none: empty beyond `most_eigenvalues`, or where nothing is free or stiff
 #pragma once
 
 #include <complex>
@@ -23,9 +23,7 @@
 namespace rheo {
 
 inline constexpr int most_eigenvalues = 480;
-// Where a good bound is known too: 120 take some ten milliseconds.
-inline constexpr int few_eigenvalues = 120;
 
-std::vector<std::complex<double>> full_spectrum(const Model& model, const ConstraintSolver& solver, int most);
+std::vector<std::complex<double>> full_spectrum(const Model& model, const ConstraintSolver& solver);
 
 }  // namespace rheo

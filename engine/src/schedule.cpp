@@ -175,11 +175,10 @@ void Schedule::make_spectrum() {
   const bool rates_differ =
       parallel ? damped || s.relaxations.size() > 1 : s.lambda_on && s.mu_on && s.lambda_rate != s.mu_rate;
   const bool euler = scene_.time.integrator == IntegratorKind::euler;
-  const bool bounds_only = scene_.time.integrator == IntegratorKind::rk4 && (s.several_materials || damped);
-  bool eigenvalues = rates_differ && (euler || bounds_only) && sets_.size() <= spectra_taken;
+  bool eigenvalues = rates_differ && euler && sets_.size() <= spectra_taken;
   const auto include = [&](const ConstraintSolver& constrained) {
     if (eigenvalues) {
-      const auto found = full_spectrum(model_, constrained, euler ? most_eigenvalues : few_eigenvalues);
+      const auto found = full_spectrum(model_, constrained);
       eigenvalues = !found.empty();
       s.eigenvalues.insert(s.eigenvalues.end(), found.begin(), found.end());
     }

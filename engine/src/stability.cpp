@@ -392,8 +392,15 @@ double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
   // Between the samples the limit moves by less than this (checked against exact spectra in the tests).
   step *= 0.998;
   // Both are safe.
-  if (!spectrum.eigenvalues.empty())
-    step = std::max(step, 0.998 * step_of_eigenvalues(spectrum.eigenvalues, integrator));
+  if (!spectrum.eigenvalues.empty()) {
+    double exact = step_of_eigenvalues(spectrum.eigenvalues, integrator);
+    // What was left at nodes that are held now decays by its rate alone.
+    for (const Relaxation& each : spectrum.relaxations)
+      if (each.rate > 0.0) exact = std::min(exact, stable_step_of(-each.rate, integrator));
+    for (const double rate : {p, q})
+      if (rate > 0.0) exact = std::min(exact, stable_step_of(-rate, integrator));
+    step = std::max(step, 0.998 * exact);
+  }
   // The double pole of a constraint: at the very edge it grows linearly, hence strictly inside.
   if (spectrum.baumgarte > 0.0)
     step = std::min(step, 0.998 * stable_step_of(-spectrum.baumgarte * (1.0 + 1e-6), integrator));

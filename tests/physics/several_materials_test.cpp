@@ -39,7 +39,8 @@ Scene random_scene(std::mt19937& random, Mass mass, int materials = 2, int colum
   Scene scene;
   scene.mesh = rectangle({1.0, 0.6}, columns, rows, Diagonal::alternating);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  for (Vec2& p : scene.mesh.points) p.x += 0.05 * unit(random), p.y += 0.05 * unit(random);
+  const double shift = 0.15 / columns;
+  for (Vec2& p : scene.mesh.points) p.x += shift * unit(random), p.y += 0.5 * shift * unit(random);
   prepare(scene.mesh);
   std::vector<Material> all;
   for (int k = 0; k < materials; ++k)
@@ -86,7 +87,7 @@ TEST(SeveralMaterials, EveryKernelAndIntegratorFollowsTheExactSolution) {
   std::mt19937 random(31);
   for (int k = 0; k < exact_scenes; ++k) {
     const Mass mass = k % 2 == 0 ? Mass::lumped : Mass::consistent;
-    Scene scene = random_scene(random, mass);
+    Scene scene = random_scene(random, mass, 2, 3, 2);
     const auto exact = ExactSolution(scene).at(times);
     std::vector<Kernel> kernels{Kernel::csr};
     if (mass == Mass::lumped) kernels.push_back(Kernel::element);
@@ -122,13 +123,13 @@ TEST(SeveralMaterials, EveryKernelAndIntegratorFollowsTheExactSolution) {
 TEST(SeveralMaterials, GeneralConstraintsAndBaumgarteToo) {
   std::mt19937 random(32);
   for (int k = 0; k < 2; ++k) {
-    Scene scene = random_scene(random, k % 2 == 0 ? Mass::lumped : Mass::consistent);
+    Scene scene = random_scene(random, k % 2 == 0 ? Mass::lumped : Mass::consistent, 2, 3, 2);
     scene.moves.clear();
     scene.constraints.push_back({{{5, Axis::x, 1.0}, {1, Axis::x, -1.0}}, 0.01, "tie"});
     if (k == 1) scene.time.constraints = ConstraintMethod::baumgarte;
     const auto exact = ExactSolution(scene).at(times);
-    scene.time.step = Simulation(scene).stable_step() / 32;
-    EXPECT_LT(run_error(exact, run(scene, Kernel::automatic)), 1e-5) << k;
+    scene.time.step = Simulation(scene).stable_step() / 16;
+    EXPECT_LT(run_error(exact, run(scene, Kernel::automatic)), 1e-4) << k;
     scene.time.integrator = IntegratorKind::implicit;
     scene.time.step = 0.0025;
     EXPECT_LT(run_error(exact, run(scene, Kernel::automatic)), 1e-5) << k;
@@ -137,7 +138,7 @@ TEST(SeveralMaterials, GeneralConstraintsAndBaumgarteToo) {
 
 TEST(SeveralMaterials, AnAccuracyAskedForIsKept) {
   std::mt19937 random(33);
-  Scene scene = random_scene(random, Mass::lumped);
+  Scene scene = random_scene(random, Mass::lumped, 2, 3, 2);
   const auto exact = ExactSolution(scene).at(times);
   for (const double accuracy : {1e-3, 1e-8}) {
     scene.time.accuracy = accuracy;
@@ -223,8 +224,10 @@ TEST(SeveralMaterials, EnergyBalanceHasOrderFourAndDissipationNeverFalls) {
       }
       drifts.push_back(worst / scale);
     }
-    // Fast rates come to the order late.
-    EXPECT_GE(std::log2(drifts.front() / drifts.back()) / 2, 3.5) << k << ": " << drifts.front();
+    // Fast rates come to the order late; beside 1e-11 rounding shows.
+    if (drifts.front() > 1e-10) {
+      EXPECT_GE(std::log2(drifts.front() / drifts.back()) / 2, 3.5) << k << ": " << drifts.front();
+    }
     EXPECT_LT(drifts.back(), 1e-9) << k;
   }
 }
@@ -393,10 +396,10 @@ TEST(SeveralMaterials, PatchTestAcrossAndAlongAnInterface) {
       scene.moves.push_back(
           {nodes_of(right), Axis::x, {}, {{0.0, {}, {}}, {0.5, {0.02, 0.0}, {}}}, Profile::smooth, "pull"});
     }
-    scene.time.duration = 60.0;
-    scene.time.integrator = IntegratorKind::implicit;
+    scene.time.duration = 6.0;
+    scene.time.integrator = IntegratorKind::exponential;
     Simulation simulation(scene);
-    ASSERT_FALSE(simulation.advance(60.0));
+    ASSERT_FALSE(simulation.advance(6.0));
     std::vector<double> sigma(3 * scene.mesh.triangles.size());
     simulation.stress(sigma);
     for (std::size_t e = 0; e < scene.mesh.triangles.size(); ++e) {

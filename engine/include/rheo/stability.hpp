@@ -52,8 +52,8 @@ struct Spectrum {
   Moduli viscous;
   double viscous_max = 0.0;
   // Of the full operator, under every set of constraints, where the scene is small: for Euler, whose limit
-  // hangs on the damping of single modes, where not everything relaxes at one rate; for RK4 with a viscous
-  // part or several materials. Else empty, and the limit a safe bound.
+  // hangs on the damping of single modes, where not everything relaxes at one rate. Else empty, and the limit
+  // a safe bound.
   std::vector<std::complex<double>> eigenvalues;
 
   // No eigenvalue's real part is below -largest_rate(): of the branches and the viscous part [1/s].
