@@ -66,7 +66,7 @@ done
 DISPLAY=:$(cat display)
 export DISPLAY
 
-"$rheo" view block.toml -o saved --close-after 240 >log 2>&1 &
+"$rheo" view block.toml -o saved --close-after 120 >log 2>&1 &
 program=$!
 window=
 waited=0
@@ -131,11 +131,16 @@ for size in "300 200" "2560 1440" "1280 720"; do
 done
 xdotool windowunmap "$window"
 sleep 1
-xdotool windowmap "$window"
+timeout 5 xdotool windowmap "$window"
 sleep 1
 kill -0 "$program" 2>/dev/null || fail "the program has ended while out of sight"
 
-press ctrl+q
+# Out of sight it has lost the focus, and a key may be lost with it; at the latest it closes by itself.
+for k in 1 2 3; do
+  timeout 5 xdotool mousemove --window "$window" 700 300 2>/dev/null
+  timeout 5 xdotool key --window "$window" ctrl+q 2>/dev/null
+  sleep 0.5
+done
 wait "$program"
 code=$?
 program=

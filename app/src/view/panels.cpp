@@ -245,8 +245,15 @@ void Ui::draw_colour_section() {
 
 void Ui::draw_material_section() {
   if (!ImGui::CollapsingHeader("Material", ImGuiTreeNodeFlags_DefaultOpen)) return;
-  rheo::Material& m = draft_->material;
-  const rheo::Material& base = base_->material;
+  draw_material(draft_->material, base_->material);
+  for (std::size_t i = 0; i < draft_->regions.size() && i < base_->regions.size(); ++i) {
+    if (!ImGui::TreeNode(base_->regions[i].name.c_str())) continue;
+    draw_material(draft_->regions[i], base_->regions[i].material);
+    ImGui::TreePop();
+  }
+}
+
+void Ui::draw_material(rheo::Material& m, const rheo::Material& base) {
   modulus("lambda_ela", &m.lambda_ela, base.lambda_ela, "Pa");
   modulus("mu_ela", &m.mu_ela, base.mu_ela, "Pa");
   modulus("lambda_vis", &m.lambda_vis, base.lambda_vis, "Pa s");

@@ -42,11 +42,14 @@ Percentiles percentiles_of(const std::deque<double>& values) {
 Draft::Draft(const rheo::Scene& scene)
     : material(scene.material), acceleration(scene.body_acceleration), time(scene.time) {
   for (const rheo::Traction& traction : scene.tractions) tractions.push_back(traction.keys.front().p);
+  for (const rheo::Region& region : scene.regions) regions.push_back(region.material);
 }
 
 rheo::Scene Draft::on(const rheo::Scene& scene) const {
   rheo::Scene edited = scene;
   edited.material = material;
+  for (std::size_t i = 0; i < regions.size() && i < edited.regions.size(); ++i)
+    edited.regions[i].material = regions[i];
   edited.body_acceleration = acceleration;
   edited.time = time;
   edited.time.where.clear();

@@ -59,6 +59,7 @@ Percentiles percentiles_of(const std::deque<double>& values);
 // The few parameters that the panels change; applied to the scene between steps.
 struct Draft {
   rheo::Material material;
+  std::vector<rheo::Material> regions;  // of the others in the mesh
   rheo::Vec2 acceleration;
   rheo::TimeSettings time;
   std::vector<rheo::Vec2> tractions;  // of those with one value; others stay
@@ -112,6 +113,7 @@ class Ui {
   void draw_hand_section();
   void draw_colour_section();
   void draw_material_section();
+  void draw_material(rheo::Material& m, const rheo::Material& base);
   void draw_load_section();
   void draw_time_section();
   void draw_scene_section();
