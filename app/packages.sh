@@ -2,15 +2,16 @@
 # Debian packages that rheo needs, and how to get them; sourced by app/demo.sh and tests/run.sh.
 
 # To build: compiler and tools, algebra, scene files, text, command line, JSON, the pictures' text, PNG, the headers
-# of OpenGL and EGL and the font that is embedded.
+# of GLFW, OpenGL and EGL and the font that is embedded.
 build_packages="g++ cmake ninja-build pkgconf libeigen3-dev libtomlplusplus-dev libfmt-dev libcli11-dev
-  nlohmann-json3-dev libimgui-dev libstb-dev libdeflate-dev libgl-dev libegl-dev fonts-dejavu-core"
+  nlohmann-json3-dev libglfw3-dev libimgui-dev libstb-dev libdeflate-dev libgl-dev libegl-dev fonts-dejavu-core"
 
-# To draw: OpenGL in software, opened when frames are wanted.
-draw_packages="libosmesa6"
+# To draw: OpenGL in software and windows, opened when wanted.
+draw_packages="libosmesa6 libglfw3"
 
-# To test: the test frameworks, EGL as the second way to draw, and a reader of ParaView's files.
-test_packages="libgtest-dev libgmock-dev libbenchmark-dev libegl1 libgl1-mesa-dri python3-meshio"
+# To test: the test frameworks, EGL as the second way to draw, a reader of ParaView's files, a display and a hand.
+test_packages="libgtest-dev libgmock-dev libbenchmark-dev libegl1 libgl1-mesa-dri python3-meshio
+  xvfb xdotool imagemagick"
 
 # install_missing PACKAGE...: says what is missing and installs that, as root or with sudo.
 install_missing() {

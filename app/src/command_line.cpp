@@ -35,7 +35,8 @@ constexpr const char* examples =
     "  rheo run beam.toml -o out/beam --vtu\n"
     "  rheo render beam.toml --color w_mu --size 1920x1080\n"
     "  rheo run beam.toml --integrator euler --step 1e-4 --force\n"
-    "  rheo bench beam.toml --csv beam.csv\n";
+    "  rheo bench beam.toml --csv beam.csv\n"
+    "  rheo view beam.toml --color w_mu\n";
 
 constexpr int most_threads = 64;
 constexpr int fewest_shapes = 2;
@@ -46,7 +47,7 @@ constexpr int most_branches = 1000;
 struct Texts {
   std::string scene, folder, integrator, step, tolerance, accuracy, duration, frame_rate, threads;
   std::string size, color, branch, range, backend, sheet;
-  std::string kernel, csv, budget;
+  std::string kernel, csv, budget, seconds;
   bool vtu = false, force = false, quiet = false, allow_unstable = false, no_energies = false, plot = false;
 };
 
@@ -217,6 +218,22 @@ void add_plot_options(CLI::App& command, Texts& texts) {
       ->group(group);
 }
 
+void add_view_options(CLI::App& command, Texts& texts) {
+  const auto add = [&](const char* group, const char* names, std::string& text, const char* type,
+                       const std::string& description) {
+    command.add_option(names, text, description)->type_name(type)->group(group);
+  };
+  const char* group = "Window";
+  add(group, "--size", texts.size, "WxH", "pixels of the window, 300x200 or more; default 1280x720");
+  add(group, "--color", texts.color, "NAME", "w_lambda, w_mu, w (both), speed or none, to begin with");
+  add(group, "--range", texts.range, "LOW,HIGH|auto", "colour range to begin with");
+  add(group, "--close-after", texts.seconds, "NUMBER", "seconds after which the window closes by itself");
+  add(group, "-o,--output", texts.folder, "DIR",
+      "folder of saved pictures, sequences and sessions; default: out/ and the\nscene's stem and _view");
+  add(group, "--threads", texts.threads, "N", "threads that compute; default: as many processors as pay");
+  command.add_flag("--quiet", texts.quiet, "print nothing unless something fails")->group(group);
+}
+
 CLI::App* add_command(CLI::App& program, Texts& texts, const std::string& name,
                       const std::string& description) {
   CLI::App* command = program.add_subcommand(name, description);
@@ -238,17 +255,13 @@ std::vector<std::string> option_names(const CLI::App& command) {
 void check_first_word(const std::vector<std::string>& words) {
   if (words.size() < 2)
     throw Failure(ExitCode::usage,
-                  "no command: use run, render, check or bench with a scene file (see rheo --help)");
+                  "no command: use run, render, view, check or bench with a scene file (see rheo --help)");
   const std::string& word = words[1];
-  const std::vector<std::string> commands{"run", "render", "check", "bench"};
+  const std::vector<std::string> commands{"run", "render", "view", "check", "bench"};
   if (word.starts_with('-') || std::ranges::find(commands, word) != commands.end()) return;
-  if (word == "view")
-    throw Failure(ExitCode::usage,
-                  fmt::format("this version ({}) has no command '{}': it has run, render, check and bench",
-                              RHEO_VERSION, word));
   const std::string close = nearest(word, commands);
   throw Failure(ExitCode::usage,
-                fmt::format("unknown command '{}': must be run, render, check or bench{}", word,
+                fmt::format("unknown command '{}': must be run, render, view, check or bench{}", word,
                             close.empty() ? "" : fmt::format("; did you mean {}?", close)));
 }
 
@@ -307,6 +320,7 @@ Options read_values(const Texts& texts, const CLI::App& command) {
   const std::string& name = command.get_name();
   options.command = name == "run"      ? Command::run
                     : name == "render" ? Command::render
+                    : name == "view"   ? Command::view
                     : name == "check"  ? Command::check
                                        : Command::bench;
   if (texts.scene.empty()) throw Failure(ExitCode::usage, "SCENE '': must be the path of a scene file");
@@ -338,6 +352,9 @@ Options read_values(const Texts& texts, const CLI::App& command) {
   // Apart from the results of run and render, which --force would take for an earlier run's.
   if (options.command == Command::bench) options.folder += "_bench";
   if (options.command == Command::check) options.folder += "_check";
+  if (options.command == Command::view) options.folder += "_view";
+  if (given("--close-after"))
+    options.close_after = positive_number("--close-after", texts.seconds, "seconds");
   if (given("--csv")) {
     if (texts.csv.empty()) throw Failure(ExitCode::usage, "--csv '': must be the path of a file");
     options.csv = texts.csv;
@@ -387,6 +404,9 @@ std::optional<Options> read_command_line(int argc, char** argv) {
   CLI::App* run = add_command(program, texts, "run", "simulate; writes state.csv, history.csv and run.json");
   CLI::App* render = add_command(program, texts, "render",
                                  "simulate and draw: run's files, frames, sheet.png and residual.png");
+  CLI::App* view =
+      add_command(program, texts, "view", "the window: push, grab and release the body in real time");
+  add_view_options(*view, texts);
   CLI::App* check = add_command(program, texts, "check",
                                 "read the scene; print sizes, stable steps and a cost forecast; no run");
   add_plot_options(*check, texts);
@@ -401,7 +421,7 @@ std::optional<Options> read_command_line(int argc, char** argv) {
     const auto commands = program.get_subcommands();
     return commands.empty() ? nullptr : commands.front();
   };
-  for (const CLI::App* command : {run, render, check, bench})
+  for (const CLI::App* command : {run, render, view, check, bench})
     if (command->get_name() == words[1]) check_values(words, *command);
   try {
     program.parse(argc, argv);
@@ -418,7 +438,7 @@ std::optional<Options> read_command_line(int argc, char** argv) {
   }
   if (!chosen())
     throw Failure(ExitCode::usage,
-                  "no command: use run, render, check or bench with a scene file (see rheo --help)");
+                  "no command: use run, render, view, check or bench with a scene file (see rheo --help)");
   Options options = read_values(texts, *chosen());
   options.words = words;
   return options;

@@ -15,7 +15,7 @@
 
 namespace app {
 
-enum class Command { run, render, check, bench };
+enum class Command { run, render, view, check, bench };
 enum class DrawBackend { automatic, osmesa, egl };
 
 struct ColorRange {
@@ -52,6 +52,7 @@ struct Options {
   std::optional<int> sheet;   // shapes on the sheet; empty: 8 to 12, as suits the run
   std::filesystem::path csv;  // bench: its table; empty: into the folder
   double budget = 60.0;       // bench: seconds
+  double close_after = 0.0;   // view: seconds; 0: never
   bool vtu = false;
   bool plot = false;  // check: the material's curves into the folder
   bool force = false;

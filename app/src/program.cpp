@@ -16,6 +16,7 @@
 #include "failure.hpp"
 #include "rheo/error.hpp"
 #include "runner.hpp"
+#include "view/view.hpp"
 
 namespace app {
 namespace {
@@ -36,6 +37,8 @@ void run_command(int argc, char** argv) {
       check_scene(*options);
     else if (options->command == Command::bench)
       bench_scene(*options);
+    else if (options->command == Command::view)
+      view_scene(*options);
     else
       run_scene(*options);
   }

@@ -5,44 +5,13 @@
 #include <limits>
 #include <span>
 
+#include "node_scalars.hpp"
 #include "rheo/simulation.hpp"
 
 namespace app {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-double length(std::span<const double> field, std::size_t i) {
-  return std::hypot(field[2 * i], field[2 * i + 1]);
-}
-
-// What is coloured, at every node.
-void find_scalars(const rheo::Simulation& simulation, rheo::ColorBy color, int branch,
-                  std::span<double> out) {
-  const auto number = static_cast<std::size_t>(branch - 1);
-  const auto lambda = branch == 0 ? simulation.w_lambda() : simulation.w_lambda(number);
-  const auto mu = branch == 0 ? simulation.w_mu() : simulation.w_mu(number);
-  const auto v = simulation.v();
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    switch (color) {
-      case rheo::ColorBy::w_lambda:
-        out[i] = length(lambda, i);
-        break;
-      case rheo::ColorBy::w_mu:
-        out[i] = length(mu, i);
-        break;
-      case rheo::ColorBy::w:
-        out[i] = std::hypot(length(lambda, i), length(mu, i));
-        break;
-      case rheo::ColorBy::speed:
-        out[i] = length(v, i);
-        break;
-      case rheo::ColorBy::none:
-        out[i] = 0.0;
-        break;
-    }
-  }
-}
 
 std::vector<double> flat(const std::vector<rheo::Vec2>& points) {
   std::vector<double> out;

@@ -100,6 +100,7 @@ Json counters_of(const rheo::Counters& counters, const RunReport& report) {
           {"projections", counters.projections},
           {"energy_samples", counters.energy_samples},
           {"steps_at_rest", counters.steps_at_rest},
+          {"flushed_steps", counters.flushed_steps},
           {"factors", counters.factors},
           {"shifted_solves", counters.shifted_solves},
           {"color_values", report.color_values},

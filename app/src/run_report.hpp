@@ -22,6 +22,7 @@
 //   energy_samples              looks at the energies: after every step, with --no-energies at outputs and
 //                               every 16th step only
 //   steps_at_rest               steps that were not taken because nothing moved and nothing acted
+//   flushed_steps               steps with denormal numbers taken for zero, which are slow: all, on x86-64
 //   color_values                colours computed: nodes times outputs; 0 without pictures and with color =
 //                               "none"
 //   frames_drawn, _repeated     whole frames drawn; frames taken from the one before but for their time

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "loaded_edges.hpp"
+#include "node_scalars.hpp"
 #include "render/context.hpp"
 #include "render/mesh_picture.hpp"
 #include "render/plot.hpp"
@@ -17,74 +18,6 @@
 
 namespace app {
 namespace {
-
-struct ScalarText {
-  const char* name;
-  const char* unit;
-};
-
-ScalarText text_of(rheo::ColorBy color) {
-  switch (color) {
-    case rheo::ColorBy::w_lambda:
-      return {"|w_lambda|", "Pa m"};
-    case rheo::ColorBy::w_mu:
-      return {"|w_mu|", "Pa m"};
-    case rheo::ColorBy::w:
-      return {"|w|", "Pa m"};
-    case rheo::ColorBy::speed:
-      return {"speed |v|", "m/s"};
-    case rheo::ColorBy::none:
-      break;
-  }
-  return {"", ""};
-}
-
-// The sum of the active tractions on each loaded edge.
-class LoadedEdges {
- public:
-  explicit LoadedEdges(const rheo::Scene& scene) {
-    std::map<rheo::Edge, std::size_t> known;
-    for (const rheo::Traction& traction : scene.tractions) {
-      std::vector<std::size_t> slots;
-      for (const auto& [i, j] : traction.edges) {
-        const rheo::Edge edge{std::min(i, j), std::max(i, j)};
-        const auto [at, is_new] = known.try_emplace(edge, edges_.size());
-        if (is_new) edges_.push_back(edge);
-        slots.push_back(at->second);
-      }
-      slots_.push_back(std::move(slots));
-    }
-  }
-
-  std::vector<std::array<double, 2>> sums(const RecordedLoads& loads) const {
-    std::vector<std::array<double, 2>> sums(edges_.size(), {0.0, 0.0});
-    for (const rheo::Simulation::ActiveTraction& active : loads.tractions)
-      for (const std::size_t slot : slots_[static_cast<std::size_t>(active.index)]) {
-        sums[slot][0] += active.p.x;
-        sums[slot][1] += active.p.y;
-      }
-    return sums;
-  }
-
-  // One arrow at the middle of every edge whose tractions do not cancel.
-  std::vector<render::TractionArrow> arrows(const RecordedLoads& loads,
-                                            std::span<const double> positions) const {
-    const std::vector<std::array<double, 2>> all = sums(loads);
-    std::vector<render::TractionArrow> out;
-    for (std::size_t e = 0; e < edges_.size(); ++e) {
-      if (all[e][0] == 0.0 && all[e][1] == 0.0) continue;
-      const auto i = static_cast<std::size_t>(edges_[e][0]), j = static_cast<std::size_t>(edges_[e][1]);
-      out.push_back({.at = {0.5 * (positions[2 * i] + positions[2 * j]),
-                            0.5 * (positions[2 * i + 1] + positions[2 * j + 1])},
-                     .vector = all[e]});
-    }
-    return out;
-  }
-
- private:
-  std::vector<rheo::Edge> edges_;
-  std::vector<std::vector<std::size_t>> slots_;  // per traction: numbers into edges_
-};
 
 // A recorded output with its own memory, as the renderer's view of it.
 struct LoadedFrame {
@@ -97,7 +30,7 @@ struct LoadedFrame {
     recorder.read(k, positions, scalar);
     if (bare) scalar.clear();
     loads = &recorder.loads(k);
-    arrows = edges.arrows(*loads, positions);
+    arrows = edges.arrows(loads->tractions, positions);
   }
 
   render::MeshFrame view() const {
@@ -109,7 +42,8 @@ struct LoadedFrame {
 double largest_traction(const Recorder& recorder, const LoadedEdges& edges) {
   double largest = 0.0;
   for (std::int64_t k = 0; k < recorder.count(); ++k)
-    for (const auto& [x, y] : edges.sums(recorder.loads(k))) largest = std::max(largest, std::hypot(x, y));
+    for (const auto& [x, y] : edges.sums(recorder.loads(k).tractions))
+      largest = std::max(largest, std::hypot(x, y));
   return largest;
 }
 
@@ -249,7 +183,7 @@ void Sequence::draw(const rheo::Scene& scene, const Recorder& recorder, const Hi
     labels.push_back({body.name, body.first_node, body.node_count});
   const LoadedEdges edges(scene);
   const bool bare = nothing_to_colour(scene.picture, recorder);
-  const ScalarText scalar = text_of(scene.picture.color);
+  const ScalarText scalar = scalar_text(scene.picture.color);
   const render::MeshLayout layout{.rest = rest,
                                   .triangles = triangles,
                                   .boundary = boundary,

@@ -10,15 +10,20 @@ namespace {
 ConstVectorMap part(const Layout& layout, std::span<const double> y, std::size_t offset) {
   return {y.data() + offset, static_cast<Eigen::Index>(layout.part)};
 }
+ConstVectorMap part(const BranchPart& branch, std::span<const double> y) {
+  return {y.data() + branch.offset, static_cast<Eigen::Index>(branch.size)};
+}
 
 // u, v, and every branch by itself while they are few; else all branches of a modulus together, with the
 // smallest one's size over the largest's at the largest frequency.
 std::vector<StatePart> parts_of(const Model& model) {
   constexpr std::size_t most = 16;  // LinearOperator::parts
   const Layout& layout = model.layout;
-  if (2 + layout.branches.size() <= most)
-    return std::vector<StatePart>(2 + layout.branches.size(), {layout.part, 1.0});
   std::vector<StatePart> parts(2, {layout.part, 1.0});
+  if (2 + layout.branches.size() <= most) {
+    for (const BranchPart& branch : layout.branches) parts.push_back({branch.size, 1.0});
+    return parts;
+  }
   for (const Modulus modulus : {Modulus::lambda, Modulus::mu}) {
     StatePart all;
     double smallest = std::numeric_limits<double>::infinity(), largest = 0.0;
@@ -27,7 +32,7 @@ std::vector<StatePart> parts_of(const Model& model) {
       const double reach = branch.ela / (branch.rate + model.element_omega);
       smallest = std::min(smallest, reach);
       largest = std::max(largest, reach);
-      all.size += layout.part;
+      all.size += branch.size;
     }
     if (all.size == 0) continue;
     all.share = smallest / largest;
@@ -40,15 +45,18 @@ std::vector<StatePart> parts_of(const Model& model) {
 
 AssembledBody::AssembledBody(const Model& model, double omega)
     : Body(model, omega),
-      one_branch_(model.material.is_one_branch()),
-      feeds_on_u_(model.material.elastic.lambda > 0.0 || model.material.elastic.mu > 0.0),
+      one_branch_(!model.has_several_materials() && !model.is_parallel()),
+      feeds_on_u_(model.has_elastic_part()),
       parts_(parts_of(model)) {
   state_.assign(model.layout.size(), 0.0);
   rate_.assign(model.layout.size(), 0.0);
   // All memory of a step is taken here.
   const auto part = static_cast<Eigen::Index>(model.layout.part);
-  for (Vector* v : {&pull_, &product_, &rhs_, &momentum_, &reaction_, &reaction_rate_, &external_})
-    v->setZero(part);
+  for (Vector* v : {&rhs_, &momentum_, &reaction_, &reaction_rate_, &external_}) v->setZero(part);
+  for (const Patch& patch : model.patches) {
+    pull_.push_back(Vector::Zero(static_cast<Eigen::Index>(patch.part)));
+    product_.push_back(pull_.back());
+  }
   for (Evaluation* e : {&work_, &evaluation_, &derivative_}) {
     e->acceleration.setZero(part);
     if (model.layout.lambda) e->force_lambda.setZero(part);
@@ -85,6 +93,29 @@ void AssembledBody::impose_prescribed(double t) {
   evaluated_ = false;
 }
 
+void AssembledBody::find_force(Modulus modulus, std::span<const double> x, Vector& force) {
+  if (!model_.has_several_materials()) {
+    force.noalias() = model_.j(modulus) * sum_of_parts(model_, 0, modulus, PartSum::pull, x, pull_.front());
+    return;
+  }
+  force.setZero();
+  for (std::size_t r = 0; r < model_.patches.size(); ++r) {
+    const Patch& patch = model_.patches[r];
+    if (!patch.has(modulus)) continue;
+    Vector& own = product_[r];
+    own.noalias() = patch.j(modulus) * sum_of_parts(model_, r, modulus, PartSum::pull, x, pull_[r]);
+    patch.for_each_dof([&](std::size_t i, std::size_t j) { force[j] += own[i]; });
+  }
+}
+
+const Vector& AssembledBody::product_of(std::size_t region, Modulus modulus, const double* x) {
+  const Patch& patch = model_.patches[region];
+  Vector &own = pull_[region], &result = product_[region];
+  patch.for_each_dof([&](std::size_t i, std::size_t j) { own[i] = x[j]; });
+  result.noalias() = patch.j(modulus) * own;
+  return result;
+}
+
 void AssembledBody::evaluate(std::span<const double> x, const Forcing& forcing, Evaluation& result) {
   const Layout& layout = model_.layout;
   ++counters_.force_evaluations;
@@ -94,12 +125,11 @@ void AssembledBody::evaluate(std::span<const double> x, const Forcing& forcing, 
     rhs_ += (forcing.weight[0] * (forcing.t - interval_->begin) + forcing.weight[1]) * interval_->force_rate;
   }
   if (layout.lambda) {
-    result.force_lambda.noalias() =
-        model_.j_lambda * sum_of_parts(model_, Modulus::lambda, PartSum::pull, x, pull_);
+    find_force(Modulus::lambda, x, result.force_lambda);
     rhs_ -= result.force_lambda;
   }
   if (layout.mu) {
-    result.force_mu.noalias() = model_.j_mu * sum_of_parts(model_, Modulus::mu, PartSum::pull, x, pull_);
+    find_force(Modulus::mu, x, result.force_mu);
     rhs_ -= result.force_mu;
   }
 
@@ -121,7 +151,7 @@ void AssembledBody::evaluate(std::span<const double> x, const Forcing& forcing, 
                  omega_ * omega_ * solver.row_times(j, u);
   }
   solver.solve(rhs_, result.acceleration, target_, result.multipliers);
-  if (model_.material.mass == Mass::consistent) ++counters_.mass_solves;
+  if (!model_.is_lumped()) ++counters_.mass_solves;
   if (!solver.columns().empty()) ++counters_.constraint_solves;
 }
 
@@ -144,8 +174,9 @@ void AssembledBody::fma(double h, std::span<const double> x, std::span<const dou
     const std::size_t offset = branch.offset;
     const double ela = branch.ela, decay = branch.rate;
     const double* w = x.data() + offset;
-    for (std::size_t i = 0; i < part; ++i)
-      out[offset + i] = base[offset + i] + h * (ela * v[i] - decay * w[i]);
+    model_.patches[branch.region].for_each_dof([&](std::size_t i, std::size_t j) {
+      out[offset + i] = base[offset + i] + h * (ela * v[j] - decay * w[i]);
+    });
   }
 }
 
@@ -162,7 +193,8 @@ void AssembledBody::evaluate_state(double t) {
     const std::size_t offset = branch.offset;
     const double ela = branch.ela, decay = branch.rate;
     const double* w = state_.data() + offset;
-    for (std::size_t i = 0; i < layout.part; ++i) rate_[offset + i] = ela * v[i] - decay * w[i];
+    model_.patches[branch.region].for_each_dof(
+        [&](std::size_t i, std::size_t j) { rate_[offset + i] = ela * v[j] - decay * w[i]; });
   }
   evaluated_ = true;
 }
@@ -171,40 +203,52 @@ std::span<const double> AssembledBody::known_rate() const {
   return evaluated_ ? std::span<const double>(rate_) : std::span<const double>();
 }
 
+void AssembledBody::add_parallel_parts(std::size_t region, Modulus modulus, EnergySample& sample) {
+  const Patch& patch = model_.patches[region];
+  const Material& m = patch.material;
+  const bool is_lambda = modulus == Modulus::lambda;
+  const double elastic = is_lambda ? m.elastic.lambda : m.elastic.mu;
+  const double viscous = is_lambda ? m.viscous.lambda : m.viscous.mu;
+  const Layout& layout = model_.layout;
+  if (elastic > 0.0) {
+    const Vector& force = product_of(region, modulus, state_.data() + layout.u());
+    sample.stored += 0.5 * elastic * pull_[region].dot(force);
+  }
+  if (viscous > 0.0) {
+    const Vector& force = product_of(region, modulus, state_.data() + layout.v());
+    sample.dissipated += viscous * pull_[region].dot(force);
+    const double* a = rate_.data() + layout.v();
+    double with_a = 0.0;
+    patch.for_each_dof([&](std::size_t i, std::size_t j) { with_a += a[j] * force[i]; });
+    sample.dissipated_rate += 2.0 * viscous * with_a;
+  }
+}
+
 EnergySample AssembledBody::sample(double t) {
   evaluate_state(t);
   const Layout& layout = model_.layout;
-  const Material& material = model_.material;
   EnergySample p;
   const auto u = part(layout, state_, layout.u());
   const auto v = part(layout, state_, layout.v());
   const auto a = part(layout, rate_, layout.v());
   for (const BranchPart& branch : layout.branches) {
-    const Vector* force = &product_;
+    const Vector* force = &product_[branch.region];
     if (one_branch_) {
       force = branch.modulus == Modulus::lambda ? &evaluation_.force_lambda : &evaluation_.force_mu;
     } else {
-      product_.noalias() = model_.j(branch.modulus) * part(layout, state_, branch.offset);
+      product_[branch.region].noalias() =
+          model_.patches[branch.region].j(branch.modulus) * part(branch, state_);
     }
-    const double stored = part(layout, state_, branch.offset).dot(*force);
+    const double stored = part(branch, state_).dot(*force);
     p.stored += 0.5 * stored / branch.ela;
     if (std::isinf(branch.vis)) continue;
     p.dissipated += stored / branch.vis;
-    p.dissipated_rate += 2.0 * part(layout, rate_, branch.offset).dot(*force) / branch.vis;
+    p.dissipated_rate += 2.0 * part(branch, rate_).dot(*force) / branch.vis;
   }
-  const auto parallel = [&](Modulus modulus, double elastic, double viscous) {
-    if (elastic > 0.0) {
-      product_.noalias() = model_.j(modulus) * u;
-      p.stored += 0.5 * elastic * u.dot(product_);
-    }
-    if (viscous > 0.0) {
-      product_.noalias() = model_.j(modulus) * v;
-      p.dissipated += viscous * v.dot(product_);
-      p.dissipated_rate += 2.0 * viscous * a.dot(product_);
-    }
-  };
-  parallel(Modulus::lambda, material.elastic.lambda, material.viscous.lambda);
-  parallel(Modulus::mu, material.elastic.mu, material.viscous.mu);
+  for (std::size_t r = 0; r < model_.patches.size(); ++r) {
+    add_parallel_parts(r, Modulus::lambda, p);
+    add_parallel_parts(r, Modulus::mu, p);
+  }
 
   model_.multiply_mass(v.data(), momentum_.data());
   p.kinetic = 0.5 * v.dot(momentum_);

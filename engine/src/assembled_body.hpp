@@ -36,17 +36,22 @@ class AssembledBody : public Body {
   };
 
   void evaluate(std::span<const double> x, const Forcing& forcing, Evaluation& result);
+  // J p of one modulus, summed over the regions.
+  void find_force(Modulus modulus, std::span<const double> x, Vector& force);
+  // J_r times a vector on the mesh's nodes, for those of one region; until the next call.
+  const Vector& product_of(std::size_t region, Modulus modulus, const double* x);
+  void add_parallel_parts(std::size_t region, Modulus modulus, EnergySample& sample);
   // evaluation_ and rate_ of the state at t.
   void evaluate_state(double t);
   void reaction(const Evaluation& evaluation, const Forcing& forcing, Vector& out);
 
   Evaluation work_, evaluation_, derivative_;
-  bool one_branch_;               // nothing else: evaluate() has every force that the energies want
+  bool one_branch_;               // of one material: evaluate() has every force that the energies want
   bool feeds_on_u_;               // an elastic part
-  std::vector<StatePart> parts_;  // u, v, w of each branch, or of each modulus where they are many
+  std::vector<StatePart> parts_;  // u, v, w of each branch and region, or of each modulus where they are many
   std::vector<double> rate_;
   bool evaluated_ = false;
-  Vector pull_, product_;  // p; J times a part
+  std::vector<Vector> pull_, product_;  // by region: p; J times a part
   Vector rhs_, target_, momentum_, reaction_, reaction_rate_, external_;
   std::vector<char> constrained_;  // by degree of freedom
 };

@@ -14,8 +14,6 @@
 namespace rheo {
 
 Assembly assembly_for(const Scene& scene, Kernel kernel, SimdLevel level) {
-  if (!scene.regions.empty())
-    throw Error(Error::Kind::input, "several materials in one mesh: not in this version");
   const bool implicit = scene.time.integrator == IntegratorKind::implicit;
   const bool asked = kernel == Kernel::edge || kernel == Kernel::element;
   const char* name = kernel == Kernel::edge ? "edge" : "element";
@@ -32,14 +30,20 @@ Assembly assembly_for(const Scene& scene, Kernel kernel, SimdLevel level) {
                             "[[constraint]]: use auto or csr",
                             name));
   }
+  const Regions regions = regions_of(scene);
+  if (kernel == Kernel::edge && regions.several()) {
+    throw Error(Error::Kind::input,
+                "kernel edge needs one material in all of the mesh: use auto, element or csr");
+  }
   if (kernel == Kernel::element) return Assembly::elements;
   if (kernel == Kernel::csr || !by_nodes) return Assembly::matrices;
-  const bool narrow = level == SimdLevel::baseline && !combined(scene.material);
+  if (regions.several()) return Assembly::elements;
+  const bool narrow = level == SimdLevel::baseline && !combined(regions.materials.front());
   return kernel == Kernel::automatic && narrow ? Assembly::elements : Assembly::edges;
 }
 
 std::unique_ptr<Body> make_body(const Scene& scene, const Model& model, int threads) {
-  const bool parallel = !scene.material.is_one_branch();
+  const bool parallel = model.is_parallel();
   if (model.edges && parallel) return std::make_unique<ParallelEdgeBody>(model, *model.edges, threads);
   if (model.elements && parallel)
     return std::make_unique<ParallelElementBody>(model, *model.elements, threads);

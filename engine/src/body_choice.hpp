@@ -1,7 +1,8 @@
 // Which kind of body carries a scene.
 //
 //   implicit                                                    assembled, with a factor
-//   lumped mass, constraints all eliminated                     by edges; by elements where the processor has
+//   lumped mass, constraints all eliminated                     by edges; by elements where there are several
+//                                                               materials, or where the processor has
 //                                                               baseline instructions only and the branches
 //                                                               are not combined (a fifth to a third faster)
 //   else                                                        assembled

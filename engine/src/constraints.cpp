@@ -87,7 +87,7 @@ ConstraintSolver::ConstraintSolver(const Model& model, const std::vector<HeldDof
 }
 
 void ConstraintSolver::hold(const std::vector<HeldDof>& eliminated) {
-  assert(model_.material.mass == Mass::lumped && columns_.empty());
+  assert(model_.is_lumped() && columns_.empty());
   std::fill(free_.begin(), free_.end(), 1);
   for (const HeldDof& h : eliminated) free_[h.dof] = 0;
   factor_mass();
@@ -95,7 +95,7 @@ void ConstraintSolver::hold(const std::vector<HeldDof>& eliminated) {
 
 void ConstraintSolver::factor_mass() {
   const auto n = static_cast<int>(model_.node_mass.size());
-  if (model_.material.mass == Mass::lumped) {
+  if (model_.is_lumped()) {
     inverse_mass_.setZero(2 * n);
     for (int i = 0; i < 2 * n; ++i) inverse_mass_[i] = free_[i] ? 1.0 / model_.node_mass[i / 2] : 0.0;
     return;
@@ -133,7 +133,7 @@ void ConstraintSolver::factor_mass() {
 }
 
 void ConstraintSolver::apply_inverse_mass(const Vector& r, Vector& a) const {
-  if (model_.material.mass == Mass::lumped) {
+  if (model_.is_lumped()) {
     for (Eigen::Index i = 0; i < r.size(); ++i) {
       if (free_[i]) a[i] = inverse_mass_[i] * r[i];
     }
@@ -161,7 +161,7 @@ double ConstraintSolver::row_times(std::size_t column, const double* x) const {
 
 void ConstraintSolver::factor_schur() {
   const std::size_t m = columns_.size();
-  const bool dense = model_.material.mass == Mass::consistent;
+  const bool dense = !model_.is_lumped();
   if (dense && 40.0 * static_cast<double>(m) * static_cast<double>(m) > schur_memory_limit) {
     throw Error(
         Error::Kind::input,
@@ -284,7 +284,7 @@ void ConstraintSolver::refuse_dependent(std::size_t column) const {
 }
 
 void ConstraintSolver::solve(const Vector& r, Vector& a, const Vector& target, Vector& multipliers) const {
-  if (model_.material.mass == Mass::lumped) {
+  if (model_.is_lumped()) {
     apply_inverse_mass(r, a);
   } else {
     // M_fc a_c: only where something eliminated moves.

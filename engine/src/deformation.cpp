@@ -49,17 +49,30 @@ void strain(const Mesh& mesh, std::span<const double> u, std::span<double> out) 
   }
 }
 
+namespace {
+
+void stress_of(const Mesh& mesh, int triangle, std::span<const double> w_lambda, std::span<const double> w_mu,
+               std::span<double> out) {
+  const Gradient l = gradient(mesh, triangle, w_lambda);
+  const Gradient m = gradient(mesh, triangle, w_mu);
+  double* s = &out[3 * static_cast<std::size_t>(triangle)];
+  s[0] = l.xx + l.yy + 2.0 * m.xx;
+  s[1] = l.xx + l.yy + 2.0 * m.yy;
+  s[2] = m.xy + m.yx;
+}
+
+}  // namespace
+
 void stress(const Mesh& mesh, std::span<const double> w_lambda, std::span<const double> w_mu,
             std::span<double> out) {
   assert(fits(mesh, w_lambda) && fits(mesh, w_mu) && out.size() == 3 * mesh.triangles.size());
-  for (int i = 0; i < mesh.triangle_count(); ++i) {
-    const Gradient l = gradient(mesh, i, w_lambda);
-    const Gradient m = gradient(mesh, i, w_mu);
-    double* s = &out[3 * static_cast<std::size_t>(i)];
-    s[0] = l.xx + l.yy + 2.0 * m.xx;
-    s[1] = l.xx + l.yy + 2.0 * m.yy;
-    s[2] = m.xy + m.yx;
-  }
+  for (int i = 0; i < mesh.triangle_count(); ++i) stress_of(mesh, i, w_lambda, w_mu, out);
+}
+
+void stress(const Mesh& mesh, std::span<const std::int32_t> triangles, std::span<const double> w_lambda,
+            std::span<const double> w_mu, std::span<double> out) {
+  assert(fits(mesh, w_lambda) && fits(mesh, w_mu) && out.size() == 3 * mesh.triangles.size());
+  for (const std::int32_t i : triangles) stress_of(mesh, i, w_lambda, w_mu, out);
 }
 
 LinearityReport check_linearity(const Mesh& mesh, std::span<const double> u) {

@@ -12,6 +12,7 @@
 
 #include "constraints.hpp"
 #include "motion.hpp"
+#include "regions.hpp"
 #include "schedule.hpp"
 #include "timeline.hpp"
 
@@ -23,20 +24,25 @@ using Eigen::Index;
 
 constexpr Index powers = 6;  // of time in the forcing: quintic courses
 
+// Of the triangles of one material.
 struct Matrices {
   Matrix j_lambda, j_mu, mass;
+  Vector area;  // by degree of freedom: of those of them that touch it
 };
 
 // J_lambda = h T d d^T, J_mu = h T (2 x x^T + 2 y y^T + g g^T): d the dilatation, x, y and g the strains of a
 // triangle as linear forms of its six displacements.
-Matrices matrices_of(const Scene& scene) {
-  const Mesh& mesh = scene.mesh;
+Matrices matrices_of(const Mesh& mesh, const Regions& regions, std::size_t region) {
   const Index size = 2 * mesh.node_count();
-  Matrices m{Matrix::Zero(size, size), Matrix::Zero(size, size), Matrix::Zero(size, size)};
+  const Material& material = regions.materials[region];
+  Matrices m{Matrix::Zero(size, size), Matrix::Zero(size, size), Matrix::Zero(size, size),
+             Vector::Zero(size)};
   using Form = Eigen::Matrix<double, 6, 1>;
   for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
+    if (regions.several() && static_cast<std::size_t>(regions.of_triangle[k]) != region) continue;
     const Triangle& t = mesh.triangles[k];
     const double area = signed_area(mesh, static_cast<int>(k));
+    for (const int node : t) m.area.segment(2 * node, 2).array() += area;
     Form x = Form::Zero(), y = Form::Zero(), g = Form::Zero();
     for (int i = 0; i < 3; ++i) {
       const Vec2& next = mesh.points[t[(i + 1) % 3]];
@@ -56,9 +62,9 @@ Matrices matrices_of(const Scene& scene) {
         m.j_lambda(row, column) += lambda(i, j);
         m.j_mu(row, column) += mu(i, j);
         if (i % 2 != j % 2) continue;
-        const double share = scene.material.mass == Mass::lumped ? (i == j ? 1.0 / 3.0 : 0.0)
-                                                                 : (i == j ? 1.0 / 6.0 : 1.0 / 12.0);
-        m.mass(row, column) += share * scene.material.density * volume;
+        const double share =
+            material.mass == Mass::lumped ? (i == j ? 1.0 / 3.0 : 0.0) : (i == j ? 1.0 / 6.0 : 1.0 / 12.0);
+        m.mass(row, column) += share * material.density * volume;
       }
     }
   }
@@ -79,11 +85,13 @@ class Flow {
   explicit Flow(const Scene& scene)
       : scene_(scene),
         size_(2 * scene.mesh.node_count()),
-        matrices_(matrices_of(scene)),
-        inverse_mass_(matrices_.mass.llt().solve(Matrix::Identity(size_, size_))),
+        regions_(regions_of(scene)),
+        matrices_(matrices_by_region(scene.mesh, regions_)),
+        mass_(sum_of_masses(matrices_)),
+        inverse_mass_(mass_.llt().solve(Matrix::Identity(size_, size_))),
         holders_(holders_of(scene)),
         events_(event_times(scene)),
-        branches_(branches_of(scene.material)),
+        branches_(branches_of(regions_.materials)),
         parts_(2 + static_cast<Index>(branches_.size())),
         y_(Vector::Zero(parts_ * size_)),
         base_(Vector::Zero(size_)),
@@ -100,15 +108,23 @@ class Flow {
     }
   }
 
-  // u, v and, of each modulus, the residual forces of all but the elastic part.
+  // u, v and, of each modulus, the residual forces of all but the elastic part; the mean over a node's
+  // materials, by their areas.
   std::vector<double> state() const {
     Vector total = Vector::Zero(4 * size_);
     total.head(2 * size_) = y_.head(2 * size_);
+    Vector area = Vector::Zero(size_);
+    for (const Matrices& m : matrices_) area += m.area;
+    const auto add = [&](std::size_t region, Index place, double factor, const auto& x) {
+      const auto share = matrices_[region].area.cwiseQuotient(area);
+      total.segment(place * size_, size_) += factor * share.cwiseProduct(x);
+    };
     for (std::size_t k = 0; k < branches_.size(); ++k)
-      total.segment((branches_[k].lambda ? 2 : 3) * size_, size_) += part(2 + static_cast<Index>(k));
-    const Moduli& viscous = scene_.material.viscous;
-    total.segment(2 * size_, size_) += viscous.lambda * part(1);
-    total.segment(3 * size_, size_) += viscous.mu * part(1);
+      add(branches_[k].region, branches_[k].lambda ? 2 : 3, 1.0, part(2 + static_cast<Index>(k)));
+    for (std::size_t r = 0; r < matrices_.size(); ++r) {
+      add(r, 2, regions_.materials[r].viscous.lambda, part(1));
+      add(r, 3, regions_.materials[r].viscous.mu, part(1));
+    }
     return {total.data(), total.data() + total.size()};
   }
 
@@ -116,15 +132,30 @@ class Flow {
   struct Branch {
     bool lambda = true;
     double ela = 0.0, rate = 0.0;
+    std::size_t region = 0;
   };
-  static std::vector<Branch> branches_of(const Material& material) {
+  static std::vector<Branch> branches_of(const std::vector<Material>& materials) {
     std::vector<Branch> branches;
-    for (std::size_t k = 0; k < material.branch_count(); ++k) {
-      const MaxwellBranch b = material.branch(k);
-      if (k == 0 || b.lambda_ela > 0.0) branches.push_back({true, b.lambda_ela, b.lambda_rate()});
-      if (k == 0 || b.mu_ela > 0.0) branches.push_back({false, b.mu_ela, b.mu_rate()});
+    for (std::size_t r = 0; r < materials.size(); ++r) {
+      for (std::size_t k = 0; k < materials[r].branch_count(); ++k) {
+        const MaxwellBranch b = materials[r].branch(k);
+        const bool first = r == 0 && k == 0;
+        if (first || b.lambda_ela > 0.0) branches.push_back({true, b.lambda_ela, b.lambda_rate(), r});
+        if (first || b.mu_ela > 0.0) branches.push_back({false, b.mu_ela, b.mu_rate(), r});
+      }
     }
     return branches;
+  }
+  static std::vector<Matrices> matrices_by_region(const Mesh& mesh, const Regions& regions) {
+    std::vector<Matrices> matrices;
+    for (std::size_t r = 0; r < regions.materials.size(); ++r)
+      matrices.push_back(matrices_of(mesh, regions, r));
+    return matrices;
+  }
+  static Matrix sum_of_masses(const std::vector<Matrices>& matrices) {
+    Matrix mass = matrices.front().mass;
+    for (std::size_t r = 1; r < matrices.size(); ++r) mass += matrices[r].mass;
+    return mass;
   }
   Eigen::Map<const Vector> part(Index k) const { return {y_.data() + k * size_, size_}; }
 
@@ -207,18 +238,25 @@ class Flow {
     gain_ = count == 0 ? Matrix(size_, 0)
                        : Matrix((c.transpose() * inverse_c).ldlt().solve(inverse_c.transpose()).transpose());
     const Matrix projected = inverse_mass_ - gain_ * inverse_c.transpose();
-    const Matrix lambda = projected * matrices_.j_lambda, mu = projected * matrices_.j_mu;
-    const Material& material = scene_.material;
+    std::vector<Matrix> lambda, mu;  // by region
+    Matrix elastic = Matrix::Zero(size_, size_), viscous = elastic;
+    for (std::size_t r = 0; r < matrices_.size(); ++r) {
+      const Material& material = regions_.materials[r];
+      lambda.push_back(projected * matrices_[r].j_lambda);
+      mu.push_back(projected * matrices_[r].j_mu);
+      elastic += material.elastic.lambda * lambda[r] + material.elastic.mu * mu[r];
+      viscous += material.viscous.lambda * lambda[r] + material.viscous.mu * mu[r];
+    }
+    const auto j_of = [&](const Branch& b) -> const Matrix& { return (b.lambda ? lambda : mu)[b.region]; };
     // Units in which the parts of A are of one size, so that scaling and squaring loses nothing.
     const auto level = [&](double ela, const Matrix& j) {
       const double size = j.cwiseAbs().colwise().sum().maxCoeff();
       return ela > 0.0 && size > 0.0 ? std::sqrt(ela / size) : 1.0;
     };
-    const Matrix elastic = material.elastic.lambda * lambda + material.elastic.mu * mu;
     const double frequency =
         std::max(any_soft ? omega : 0.0, std::sqrt(elastic.cwiseAbs().colwise().sum().maxCoeff()));
     unit_ = {frequency > 0.0 ? 1.0 / frequency : 1.0, 1.0};
-    for (const Branch& branch : branches_) unit_.push_back(level(branch.ela, branch.lambda ? lambda : mu));
+    for (const Branch& branch : branches_) unit_.push_back(level(branch.ela, j_of(branch)));
     const Index n = parts_ * size_;
     operator_.setZero(n + powers, n + powers);
     const auto block = [&](int row, int column) {
@@ -227,11 +265,11 @@ class Flow {
     const Matrix identity = Matrix::Identity(size_, size_);
     block(0, 1) = identity / unit_[0];
     block(1, 0) = -unit_[0] * (omega * omega * (gain_ * soft) + elastic);
-    block(1, 1) = -2.0 * omega * (gain_ * soft) - material.viscous.lambda * lambda - material.viscous.mu * mu;
+    block(1, 1) = -2.0 * omega * (gain_ * soft) - viscous;
     for (std::size_t k = 0; k < branches_.size(); ++k) {
       const Branch& branch = branches_[k];
       const int place = static_cast<int>(k) + 2;
-      block(1, place) = -unit_[k + 2] * (branch.lambda ? lambda : mu);
+      block(1, place) = -unit_[k + 2] * j_of(branch);
       block(place, 1) = branch.ela / unit_[k + 2] * identity;
       block(place, place) = -branch.rate * identity;
     }
@@ -262,7 +300,7 @@ class Flow {
       Vector acceleration(size_);
       for (Index i = 0; i < size_; i += 2)
         acceleration.segment(i, 2) << scene_.body_acceleration.x, scene_.body_acceleration.y;
-      f = matrices_.mass * acceleration;
+      f = mass_ * acceleration;
     }
     const double inside = 0.5 * (begin() + end());
     for (const Traction& traction : scene_.tractions) {
@@ -318,15 +356,18 @@ class Flow {
 
   const Scene& scene_;
   Index size_;  // 2n
-  Matrices matrices_;
+  Regions regions_;
+  std::vector<Matrices> matrices_;  // by region
+  Matrix mass_;
   Matrix inverse_mass_;
   std::vector<Holder> holders_;
   std::vector<double> events_;
   std::size_t index_ = 0;
   double now_ = 0.0;
-  double rest_ = 0.0;             // the state is at now_ + rest_
-  std::vector<Branch> branches_;  // the first of both moduli, whether on or not; then those that are on
-  Index parts_;                   // u, v, w of each branch
+  double rest_ = 0.0;  // the state is at now_ + rest_
+  std::vector<Branch>
+      branches_;  // the first of both moduli, whether on or not; then those that are on, of all regions
+  Index parts_;   // u, v, w of each branch
   Vector y_, base_;
   std::vector<int> owner_;  // by degree of freedom: who holds it, -1: nobody
   std::vector<Row> rows_;

@@ -4,39 +4,45 @@
 
 namespace rheo {
 
-std::vector<std::complex<double>> full_spectrum(const Model& model, const ConstraintSolver& solver) {
+std::vector<std::complex<double>> full_spectrum(const Model& model, const ConstraintSolver& solver,
+                                                int most) {
   const auto size = static_cast<Eigen::Index>(model.layout.part);
   std::vector<Eigen::Index> free;
   for (Eigen::Index dof = 0; dof < size; ++dof) {
     if (solver.is_free(static_cast<std::size_t>(dof))) free.push_back(dof);
   }
-  const std::vector<Relaxation> relaxations = relaxations_of(model.material);
+  std::vector<Material> materials;
+  std::vector<Moduli> viscous;
+  for (const Patch& patch : model.patches) {
+    materials.push_back(patch.material);
+    viscous.push_back(patch.material.viscous);
+  }
+  const std::vector<SharedRelaxation> relaxations = relaxations_of(materials);
   const auto n = static_cast<Eigen::Index>(free.size());
   const Eigen::Index parts = 1 + static_cast<Eigen::Index>(relaxations.size());
-  if (free.empty() || parts * n > most_eigenvalues) return {};
+  if (free.empty() || parts * n > most) return {};
 
   // P M^-1 (lambda J_lambda + mu J_mu) on the free degrees of freedom, a column at a time.
   const Vector target = Vector::Zero(static_cast<Eigen::Index>(solver.columns().size()));
   Vector multipliers = target, unit(size), acceleration(size);
-  const auto product = [&](const Moduli& moduli) {
+  const auto product = [&](const std::vector<Moduli>& moduli) {
     Eigen::MatrixXd result(n, n);
     for (Eigen::Index k = 0; k < n; ++k) {
       unit.setZero();
       unit[free[k]] = 1.0;
       acceleration.setZero();
-      solver.solve(model.stiffness(moduli.lambda, moduli.mu, unit), acceleration, target, multipliers);
+      solver.solve(model.stiffness(moduli, unit), acceleration, target, multipliers);
       for (Eigen::Index i = 0; i < n; ++i) result(i, k) = acceleration[free[i]];
     }
     return result;
   };
   std::vector<Eigen::MatrixXd> stiffness;  // over mass [1/s^2]
   double squared = 0.0;
-  for (const Relaxation& each : relaxations) {
+  for (const SharedRelaxation& each : relaxations) {
     stiffness.push_back(product(each.moduli));
     squared = std::max(squared, stiffness.back().norm());
   }
-  const Moduli& viscous = model.material.viscous;
-  const bool damped = viscous.lambda > 0.0 || viscous.mu > 0.0;
+  const bool damped = model.has_viscous_part();
   if (squared == 0.0 && !damped) return {};
 
   // q in units of 1 / omega: off-diagonal blocks of one size lose the least to rounding.

@@ -9,6 +9,7 @@
 // Shapes   base, jump, v: 2n
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,6 +25,9 @@ class Holds {
   Holds(const Model& model, std::size_t columns);
 
   const Vector& base() const { return base_; }
+
+  // Nobody holds anything.
+  void forget() { std::fill(owner_.begin(), owner_.end(), -1); }
 
   // Two halves of one passage. First: who holds what from now on; whether some hold begins. hands: may be
   // null.

@@ -24,7 +24,8 @@ double pseudo_random(std::uint64_t& state) {
 
 }  // namespace
 
-RitzBound largest_frequency(const Model& model, const ConstraintSolver& solver, const Moduli& moduli) {
+RitzBound largest_frequency(const Model& model, const ConstraintSolver& solver,
+                            const std::vector<Moduli>& moduli) {
   const auto size = static_cast<Eigen::Index>(model.layout.part);
   const Vector target = Vector::Zero(static_cast<Eigen::Index>(solver.columns().size()));
   Vector multipliers = target;
@@ -57,7 +58,7 @@ RitzBound largest_frequency(const Model& model, const ConstraintSolver& solver, 
 
   std::vector<double> alphas, betas;
   for (int k = 1; k <= most_steps; ++k) {
-    project(model.stiffness(moduli.lambda, moduli.mu, q), next);
+    project(model.stiffness(moduli, q), next);
     model.multiply_mass(q.data(), mass_times.data());
     const double alpha = next.dot(mass_times);
     next -= alpha * q + beta * previous;

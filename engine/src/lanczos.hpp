@@ -20,7 +20,8 @@ struct RitzBound {
   int steps = 0;
 };
 
-// Of springs of these moduli.
-RitzBound largest_frequency(const Model& model, const ConstraintSolver& solver, const Moduli& moduli);
+// Of springs of these moduli, by region.
+RitzBound largest_frequency(const Model& model, const ConstraintSolver& solver,
+                            const std::vector<Moduli>& moduli);
 
 }  // namespace rheo

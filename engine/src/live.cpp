@@ -13,6 +13,11 @@ Live::Live(Scene scene, LiveSettings settings)
   hands_ = std::make_unique<Hands>(simulation_->scene(), settings);
   simulation_->attach(*hands_);
 }
+Live::Live(Scene scene, LiveSettings settings, const SavedState& saved)
+    : Live(std::move(scene), std::move(settings)) {
+  simulation_->resume(saved);
+  ticks_ = std::llround(saved.t * rate_);
+}
 Live::Live(Live&&) noexcept = default;
 Live& Live::operator=(Live&&) noexcept = default;
 Live::~Live() = default;

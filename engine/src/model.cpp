@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace rheo {
@@ -24,13 +25,23 @@ std::array<Corner, 3> corners(const Mesh& mesh, const Triangle& t) {
   return result;
 }
 
-SparseMatrix connection_matrix(const Mesh& mesh, Modulus modulus) {
+SparseMatrix connection_matrix(const Mesh& mesh, const Patch& patch, Modulus modulus) {
+  const std::size_t count = patch.nodes.empty() ? mesh.triangles.size() : patch.triangles.size();
+  std::vector<std::int32_t> number;  // of the patch, by node of the mesh
+  if (!patch.nodes.empty()) {
+    number.assign(mesh.points.size(), 0);
+    for (std::size_t k = 0; k < patch.nodes.size(); ++k)
+      number[static_cast<std::size_t>(patch.nodes[k])] = static_cast<std::int32_t>(k);
+  }
   std::vector<Triplet> entries;
-  entries.reserve(mesh.triangles.size() * 36);
-  for (int e = 0; e < mesh.triangle_count(); ++e) {
-    const Triangle& t = mesh.triangles[e];
+  entries.reserve(count * 36);
+  for (std::size_t k = 0; k < count; ++k) {
+    const int e = patch.nodes.empty() ? static_cast<int>(k) : patch.triangles[k];
+    Triangle t = mesh.triangles[e];
     const auto q = corners(mesh, t);
     const double scale = mesh.thickness / (4.0 * signed_area(mesh, e));
+    if (!number.empty())
+      for (int& node : t) node = number[static_cast<std::size_t>(node)];
     for (int i = 0; i < 3; ++i) {
       for (int j = 0; j < 3; ++j) {
         const double bb = scale * q[i].b * q[j].b;
@@ -47,7 +58,8 @@ SparseMatrix connection_matrix(const Mesh& mesh, Modulus modulus) {
       }
     }
   }
-  SparseMatrix matrix(2 * mesh.node_count(), 2 * mesh.node_count());
+  const auto size = static_cast<Eigen::Index>(patch.part);
+  SparseMatrix matrix(size, size);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }
@@ -92,57 +104,156 @@ double element_eigenvalue(const Mesh& mesh, int e, const Moduli& moduli, const M
   return top * scale * scale * factor * largest / material.density;
 }
 
-}  // namespace
+std::vector<Patch> patches_of(const Mesh& mesh, const Regions& regions) {
+  std::vector<Patch> patches(regions.materials.size());
+  for (std::size_t r = 0; r < patches.size(); ++r) {
+    Patch& patch = patches[r];
+    patch.material = regions.materials[r];
+    const Material& m = patch.material;
+    patch.lambda = m.elastic.lambda > 0.0 || m.viscous.lambda > 0.0;
+    patch.mu = m.elastic.mu > 0.0 || m.viscous.mu > 0.0;
+    for (std::size_t k = 0; k < m.branch_count(); ++k) {
+      patch.lambda = patch.lambda || m.branch(k).lambda_ela > 0.0;
+      patch.mu = patch.mu || m.branch(k).mu_ela > 0.0;
+    }
+    patch.part = 2 * mesh.points.size();
+  }
+  if (!regions.several()) return patches;
 
-Layout::Layout(const Mesh& mesh, const Material& material) : part(2 * mesh.points.size()) {
-  const auto add = [&](Modulus modulus, std::size_t number, double ela, double vis, double rate) {
-    if (ela > 0.0) branches.push_back({modulus, number, ela, vis, rate, size()});
-  };
-  for (std::size_t k = 0; k < material.branch_count(); ++k) {
-    const MaxwellBranch b = material.branch(k);
-    add(Modulus::lambda, k, b.lambda_ela, b.lambda_vis, b.lambda_rate());
+  assert(regions.of_triangle.size() == mesh.triangles.size());
+  for (std::size_t e = 0; e < mesh.triangles.size(); ++e)
+    patches[static_cast<std::size_t>(regions.of_triangle[e])].triangles.push_back(static_cast<int>(e));
+  std::vector<double> whole(mesh.points.size(), 0.0);  // area of a node's triangles
+  for (int e = 0; e < mesh.triangle_count(); ++e)
+    for (const int node : mesh.triangles[e]) whole[node] += signed_area(mesh, e);
+  std::vector<double> own(mesh.points.size(), 0.0);
+  for (Patch& patch : patches) {
+    for (const int e : patch.triangles) {
+      for (const int node : mesh.triangles[e]) {
+        if (own[node] == 0.0) patch.nodes.push_back(node);
+        own[node] += signed_area(mesh, e);
+      }
+    }
+    std::sort(patch.nodes.begin(), patch.nodes.end());
+    for (const std::int32_t node : patch.nodes) {
+      patch.area_share.push_back(own[node] / whole[node]);
+      own[node] = 0.0;
+    }
+    patch.part = 2 * patch.nodes.size();
   }
-  lambda = !branches.empty() || material.elastic.lambda > 0.0 || material.viscous.lambda > 0.0;
-  first_mu = size();
-  for (std::size_t k = 0; k < material.branch_count(); ++k) {
-    const MaxwellBranch b = material.branch(k);
-    add(Modulus::mu, k, b.mu_ela, b.mu_vis, b.mu_rate());
-  }
-  mu = size() > first_mu || material.elastic.mu > 0.0 || material.viscous.mu > 0.0;
+  return patches;
 }
 
-Model::Model(const Mesh& mesh, const Material& m, Assembly assembly) : material(m), layout(mesh, m) {
+}  // namespace
+
+std::int32_t Patch::number_of(std::int32_t mesh_node) const {
+  if (nodes.empty()) return mesh_node;
+  const auto at = std::lower_bound(nodes.begin(), nodes.end(), mesh_node);
+  assert(at != nodes.end() && *at == mesh_node);
+  return static_cast<std::int32_t>(at - nodes.begin());
+}
+
+Layout::Layout(std::size_t nodes, std::span<const Patch> patches) : part(2 * nodes), end(4 * nodes) {
+  const auto add = [&](Modulus modulus, std::size_t region, std::size_t number, double ela, double vis,
+                       double rate) {
+    if (ela == 0.0) return;
+    const std::size_t size = patches[region].part;
+    branches.push_back({modulus, number, ela, vis, rate, end, region, size});
+    end += size;
+  };
+  lambda = mu = false;
+  for (std::size_t r = 0; r < patches.size(); ++r) {
+    const Material& material = patches[r].material;
+    lambda = lambda || patches[r].lambda;
+    mu = mu || patches[r].mu;
+    for (std::size_t k = 0; k < material.branch_count(); ++k) {
+      const MaxwellBranch b = material.branch(k);
+      add(Modulus::lambda, r, k, b.lambda_ela, b.lambda_vis, b.lambda_rate());
+    }
+  }
+  first_mu = end;
+  for (std::size_t r = 0; r < patches.size(); ++r) {
+    const Material& material = patches[r].material;
+    for (std::size_t k = 0; k < material.branch_count(); ++k) {
+      const MaxwellBranch b = material.branch(k);
+      add(Modulus::mu, r, k, b.mu_ela, b.mu_vis, b.mu_rate());
+    }
+  }
+}
+
+Model::Model(const Mesh& mesh, const Regions& regions, Assembly assembly)
+    : patches(patches_of(mesh, regions)), layout(mesh.points.size(), patches) {
   if (assembly == Assembly::edges) {
-    edges = std::make_unique<EdgeForce>(std::make_shared<EdgeForm>(mesh, combined(m)), best_simd_level());
+    edges = std::make_unique<EdgeForce>(std::make_shared<EdgeForm>(mesh, combined(material())),
+                                        best_simd_level());
   } else if (assembly == Assembly::elements) {
-    elements = std::make_unique<ElementForce>(std::make_shared<ElementForm>(mesh, Regions{{m}, {}}),
-                                              best_simd_level());
+    elements =
+        std::make_unique<ElementForce>(std::make_shared<ElementForm>(mesh, regions), best_simd_level());
   } else {
-    if (layout.lambda) j_lambda = connection_matrix(mesh, Modulus::lambda);
-    if (layout.mu) j_mu = connection_matrix(mesh, Modulus::mu);
+    for (Patch& patch : patches) {
+      if (patch.lambda) patch.j_lambda = connection_matrix(mesh, patch, Modulus::lambda);
+      if (patch.mu) patch.j_mu = connection_matrix(mesh, patch, Modulus::mu);
+    }
   }
 
   node_mass = Vector::Zero(mesh.node_count());
   std::vector<Triplet> entries;
-  const Moduli springs = m.instantaneous();
+  std::vector<Moduli> springs;
+  for (const Patch& patch : patches) springs.push_back(patch.material.instantaneous());
+  const bool consistent = patches.front().material.mass == Mass::consistent;
   double eigenvalue = 0.0;
   for (int e = 0; e < mesh.triangle_count(); ++e) {
+    const std::size_t region = has_several_materials() ? static_cast<std::size_t>(regions.of_triangle[e]) : 0;
+    const Material& m = patches[region].material;
     const Triangle& t = mesh.triangles[e];
     const double triangle_mass = m.density * mesh.thickness * signed_area(mesh, e);
     for (int i = 0; i < 3; ++i) {
       node_mass[t[i]] += triangle_mass / 3;
-      if (m.mass == Mass::consistent) {
+      if (consistent) {
         for (int j = 0; j < 3; ++j) entries.emplace_back(t[i], t[j], triangle_mass / (i == j ? 6 : 12));
       }
     }
-    eigenvalue = std::max(eigenvalue, element_eigenvalue(mesh, e, springs, m));
+    eigenvalue = std::max(eigenvalue, element_eigenvalue(mesh, e, springs[region], m));
     element_viscous = std::max(element_viscous, element_eigenvalue(mesh, e, m.viscous, m));
   }
   element_omega = std::sqrt(eigenvalue);
-  if (m.mass == Mass::consistent) {
+  if (consistent) {
     mass.resize(mesh.node_count(), mesh.node_count());
     mass.setFromTriplets(entries.begin(), entries.end());
   }
+}
+
+const Material& Model::material() const {
+  assert(!has_several_materials());
+  return patches.front().material;
+}
+
+const SparseMatrix& Model::j(Modulus modulus) const {
+  assert(!has_several_materials());
+  return patches.front().j(modulus);
+}
+
+std::size_t Model::branch_count() const {
+  std::size_t count = 0;
+  for (const Patch& patch : patches) count = std::max(count, patch.material.branch_count());
+  return count;
+}
+
+bool Model::has_elastic_part() const {
+  return std::any_of(patches.begin(), patches.end(), [](const Patch& patch) {
+    return patch.material.elastic.lambda > 0.0 || patch.material.elastic.mu > 0.0;
+  });
+}
+
+bool Model::has_viscous_part() const {
+  return std::any_of(patches.begin(), patches.end(), [](const Patch& patch) {
+    return patch.material.viscous.lambda > 0.0 || patch.material.viscous.mu > 0.0;
+  });
+}
+
+bool Model::is_parallel() const {
+  return std::any_of(patches.begin(), patches.end(),
+                     [](const Patch& patch) { return !patch.material.is_one_branch(); });
 }
 
 void Model::multiply_mass(const double* x, double* out) const {
@@ -150,55 +261,71 @@ void Model::multiply_mass(const double* x, double* out) const {
   using Nodes = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
   const Eigen::Map<const Nodes> in(x, n, 2);
   Eigen::Map<Nodes> result(out, n, 2);
-  if (material.mass == Mass::consistent) {
+  if (!is_lumped()) {
     result.noalias() = mass * in;
   } else {
     result = (in.array().colwise() * node_mass.array()).matrix();
   }
 }
 
-Vector Model::stiffness(double lambda, double mu, const Vector& x) const {
+Vector Model::stiffness(const std::vector<Moduli>& moduli, const Vector& x) const {
+  assert(moduli.size() == patches.size());
   Vector result = Vector::Zero(x.size());
+  const auto size = static_cast<std::size_t>(x.size());
   if (edges) {
-    const auto size = static_cast<std::size_t>(x.size());
-    edges->stiffness(lambda, mu, {x.data(), size}, {result.data(), size});
+    edges->stiffness(moduli.front().lambda, moduli.front().mu, {x.data(), size}, {result.data(), size});
     return result;
   }
   if (elements) {
-    const auto size = static_cast<std::size_t>(x.size());
-    elements->stiffness(lambda, mu, {x.data(), size}, {result.data(), size});
+    elements->stiffness(moduli, {x.data(), size}, {result.data(), size});
     return result;
   }
-  if (layout.lambda && lambda != 0.0) result += lambda * (j_lambda * x);
-  if (layout.mu && mu != 0.0) result += mu * (j_mu * x);
+  if (!has_several_materials()) {
+    const Patch& patch = patches.front();
+    const auto [lambda, mu] = moduli.front();
+    if (patch.lambda && lambda != 0.0) result += lambda * (patch.j_lambda * x);
+    if (patch.mu && mu != 0.0) result += mu * (patch.j_mu * x);
+    return result;
+  }
+  Vector own, force;
+  for (std::size_t r = 0; r < patches.size(); ++r) {
+    const Patch& patch = patches[r];
+    own.resize(static_cast<Eigen::Index>(patch.part));
+    force.setZero(own.size());
+    patch.for_each_dof([&](std::size_t i, std::size_t j) { own[i] = x[j]; });
+    if (patch.lambda && moduli[r].lambda != 0.0) force += moduli[r].lambda * (patch.j_lambda * own);
+    if (patch.mu && moduli[r].mu != 0.0) force += moduli[r].mu * (patch.j_mu * own);
+    patch.for_each_dof([&](std::size_t i, std::size_t j) { result[j] += force[i]; });
+  }
   return result;
 }
 
-ConstVectorMap sum_of_parts(const Model& model, Modulus modulus, PartSum sum, std::span<const double> y,
-                            Vector& memory) {
+ConstVectorMap sum_of_parts(const Model& model, std::size_t region, Modulus modulus, PartSum sum,
+                            std::span<const double> y, Vector& memory) {
   const Layout& layout = model.layout;
-  const auto part = [&](std::size_t offset) {
-    return ConstVectorMap(y.data() + offset, static_cast<Eigen::Index>(layout.part));
-  };
+  const Patch& patch = model.patches[region];
+  const auto size = static_cast<Eigen::Index>(patch.part);
   const bool is_lambda = modulus == Modulus::lambda;
-  const Material& material = model.material;
+  const Material& material = patch.material;
   const double viscous = is_lambda ? material.viscous.lambda : material.viscous.mu;
   const double springs = is_lambda ? material.elastic.lambda : material.elastic.mu;
   const double elastic = sum == PartSum::pull ? springs : 0.0;
   const BranchPart* only = nullptr;
   int terms = (viscous > 0.0 ? 1 : 0) + (elastic > 0.0 ? 1 : 0);
   for (const BranchPart& branch : layout.branches) {
-    if (branch.modulus != modulus) continue;
+    if (branch.modulus != modulus || branch.region != region) continue;
     only = &branch;
     ++terms;
   }
-  if (terms == 1 && only != nullptr) return part(only->offset);
-  memory.setZero(static_cast<Eigen::Index>(layout.part));
+  if (terms == 1 && only != nullptr) return {y.data() + only->offset, size};
+  memory.setZero(size);
   for (const BranchPart& branch : layout.branches) {
-    if (branch.modulus == modulus) memory += part(branch.offset);
+    if (branch.modulus == modulus && branch.region == region)
+      memory += ConstVectorMap(y.data() + branch.offset, size);
   }
-  if (viscous > 0.0) memory += viscous * part(layout.v());
-  if (elastic > 0.0) memory += elastic * part(layout.u());
+  const double *u = y.data() + layout.u(), *v = y.data() + layout.v();
+  if (viscous > 0.0) patch.for_each_dof([&](std::size_t i, std::size_t j) { memory[i] += viscous * v[j]; });
+  if (elastic > 0.0) patch.for_each_dof([&](std::size_t i, std::size_t j) { memory[i] += elastic * u[j]; });
   return {memory.data(), memory.size()};
 }
 

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace rheo {
 namespace {
 
+constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double swings = 10.0;  // of u_top / v_top: a swing and a half
 
 double largest(std::span<const double> x) {
@@ -14,30 +16,52 @@ double largest(std::span<const double> x) {
   return found;
 }
 
-double slowest_time(double elastic, double viscous, const Material& material,
-                    double (MaxwellBranch::*rate_of)() const, double MaxwellBranch::*ela) {
-  double springs = 0.0;
-  for (std::size_t k = 0; k < material.branch_count(); ++k) {
-    const MaxwellBranch branch = material.branch(k);
-    springs += branch.*ela;
-    if ((branch.*rate_of)() == 0.0) elastic += branch.*ela;
+// Of one modulus, of all materials together.
+struct Springs {
+  double elastic = infinite;  // the softest elastic part; infinite: none has one
+  double stiffest = 0.0;      // all springs of one material
+  double slowest_rate = infinite;
+  double viscous = 0.0;
+
+  double slowest_time() const {
+    const bool holds = std::isfinite(elastic);
+    double slowest = holds ? viscous / elastic : 0.0;
+    if (std::isfinite(slowest_rate))
+      slowest = std::max(slowest, (holds ? 1.0 + stiffest / elastic : 1.0) / slowest_rate);
+    return slowest;
   }
-  double slowest = elastic > 0.0 ? viscous / elastic : 0.0;
-  for (std::size_t k = 0; k < material.branch_count(); ++k) {
-    const double rate = (material.branch(k).*rate_of)();
-    if (rate > 0.0) slowest = std::max(slowest, (elastic > 0.0 ? 1.0 + springs / elastic : 1.0) / rate);
+};
+
+Springs springs_of(std::span<const Material> materials, double Moduli::*modulus,
+                   double (MaxwellBranch::*rate_of)() const, double MaxwellBranch::*ela) {
+  Springs all;
+  for (const Material& material : materials) {
+    double elastic = material.elastic.*modulus, springs = 0.0;
+    for (std::size_t k = 0; k < material.branch_count(); ++k) {
+      const MaxwellBranch branch = material.branch(k);
+      const double rate = (branch.*rate_of)();
+      springs += branch.*ela;
+      if (rate == 0.0)
+        elastic += branch.*ela;
+      else
+        all.slowest_rate = std::min(all.slowest_rate, rate);
+    }
+    if (elastic > 0.0) all.elastic = std::min(all.elastic, elastic);
+    all.stiffest = std::max(all.stiffest, springs);
+    all.viscous = std::max(all.viscous, material.viscous.*modulus);
   }
-  return slowest;
+  return all;
 }
 
 }  // namespace
 
-RestWatch::RestWatch(const Material& material, std::size_t size, double share)
+RestWatch::RestWatch(std::span<const Material> materials, std::size_t size, double share)
     : share_(share),
-      slowest_(std::max(slowest_time(material.elastic.lambda, material.viscous.lambda, material,
-                                     &MaxwellBranch::lambda_rate, &MaxwellBranch::lambda_ela),
-                        slowest_time(material.elastic.mu, material.viscous.mu, material,
-                                     &MaxwellBranch::mu_rate, &MaxwellBranch::mu_ela))),
+      slowest_(std::max(
+          springs_of(materials, &Moduli::lambda, &MaxwellBranch::lambda_rate, &MaxwellBranch::lambda_ela)
+              .slowest_time(),
+          springs_of(materials, &Moduli::mu, &MaxwellBranch::mu_rate, &MaxwellBranch::mu_ela)
+              .slowest_time())),
       mark_(slowest_ > 0.0 ? size : 0) {}
 
 bool RestWatch::look(double t, std::span<const double> u, std::span<const double> v, double omega) {

@@ -10,8 +10,9 @@
 // a rounding of |u| a step.) Nothing is absolute: other units or larger loads change no answer.
 //
 // The retardation time of a spring E_0 beside Maxwell branches of E_k and rate r_k: (E_0 + sum E_k) /
-// (E_0 r_k), without a spring 1 / r_k; beside a dashpot c: c / E_0. Where nothing relaxes or is viscous, no
-// answer is ever yes: such a body swings for ever.
+// (E_0 r_k), without a spring 1 / r_k; beside a dashpot c: c / E_0. With several materials: the slowest of
+// them beside the stiffest and the softest spring of all. Where nothing relaxes or is viscous, no answer is
+// ever yes: such a body swings for ever.
 //
 // Units    u [m], v [m/s], times [s], omega [1/s]
 // Shapes   u, v: 2n
@@ -29,7 +30,7 @@ namespace rheo {
 class RestWatch {
  public:
   // size: of u. All memory is taken here.
-  RestWatch(const Material& material, std::size_t size, double share);
+  RestWatch(std::span<const Material> materials, std::size_t size, double share);
 
   // Loads or constraints are others from now on.
   void restart() { marked_ = false; }

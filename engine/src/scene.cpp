@@ -107,6 +107,32 @@ void check_mesh(const Mesh& mesh) {
     refuse(where, fmt::format("node {}: in no triangle{}", idle - used.begin(), remedy));
 }
 
+const char* name_of(Mass mass) {
+  return mass == Mass::lumped ? "lumped" : "consistent";
+}
+
+void check_regions(const Scene& scene) {
+  for (std::size_t k = 0; k < scene.regions.size(); ++k) {
+    const Region& region = scene.regions[k];
+    const std::string where = region.where.empty() ? fmt::format("region {}", k + 1) : region.where;
+    region.material.validate(where);
+    if (region.material.mass != scene.material.mass) {
+      refuse(where, fmt::format("mass = \"{}\": all materials of a mesh need the same, [material] has \"{}\"",
+                                name_of(region.material.mass), name_of(scene.material.mass)));
+    }
+  }
+  const std::vector<std::int32_t>& of = scene.region_of_triangle;
+  if (!of.empty() && of.size() != scene.mesh.triangles.size()) {
+    refuse("[[region]]",
+           fmt::format("regions of {} triangles: the mesh has {}", of.size(), scene.mesh.triangles.size()));
+  }
+  for (std::size_t e = 0; e < of.size(); ++e) {
+    if (of[e] >= 0 && static_cast<std::size_t>(of[e]) <= scene.regions.size()) continue;
+    refuse("[[region]]",
+           fmt::format("triangle {}: region {}: 0 to {} are there", e, of[e], scene.regions.size()));
+  }
+}
+
 // Every edge of the tractions is a side of some triangle.
 void check_edges(const std::vector<Traction>& tractions, const Mesh& mesh) {
   std::vector<char> loaded(mesh.points.size(), 0);
@@ -160,23 +186,6 @@ void check_probes(const std::vector<Probe>& probes, const Mesh& mesh) {
     }
     check_nodes(probe.where, probe.nodes, mesh);
   }
-}
-
-void check_materials(const Scene& scene) {
-  const auto most = static_cast<std::int32_t>(scene.regions.size());
-  for (const Region& region : scene.regions) {
-    region.material.validate(region.where);
-    if (region.material.mass != scene.material.mass)
-      refuse(region.where, "mass: lumped or consistent, all materials of a scene have the same");
-  }
-  const std::vector<std::int32_t>& of = scene.region_of_triangle;
-  if (of.empty() && most == 0) return;
-  if (of.size() != scene.mesh.triangles.size())
-    refuse("[[region]]", fmt::format("the materials of {} triangles where the mesh has {}", of.size(),
-                                     scene.mesh.triangles.size()));
-  for (const std::int32_t number : of)
-    if (number < 0 || number > most)
-      refuse("[[region]]", fmt::format("material {} of a triangle: 0 to {} are there", number, most));
 }
 
 }  // namespace
@@ -252,7 +261,7 @@ void validate(const Scene& scene) {
   if (mesh.triangles.empty()) refuse("[mesh]", "the mesh has no triangles: at least one is needed");
   check_mesh(mesh);
   scene.material.validate("[material]");
-  check_materials(scene);
+  check_regions(scene);
   if (!usable(scene.body_acceleration)) {
     refuse("[body_force]", fmt::format("acceleration = [{}, {}]: {} (m/s^2) are needed",
                                        scene.body_acceleration.x, scene.body_acceleration.y, usable_numbers));
@@ -274,8 +283,10 @@ void validate(const Scene& scene) {
   validate(scene.picture);
   const std::size_t branches = most_branches(scene);
   if (static_cast<std::size_t>(scene.picture.branch) > branches) {
-    refuse("[render]", fmt::format("branch = {}: the material has {} Maxwell branch{}, 0 is all of them",
-                                   scene.picture.branch, branches, branches == 1 ? "" : "es"));
+    refuse("[render]",
+           fmt::format("branch = {}: {} {} Maxwell branch{}, 0 is all of them", scene.picture.branch,
+                       scene.regions.empty() ? "the material has" : "the materials have at most", branches,
+                       branches == 1 ? "" : "es"));
   }
 }
 

@@ -133,7 +133,6 @@ std::shared_ptr<const ConstraintSolver> Schedule::solver_holding(std::size_t i,
 }
 
 void Schedule::make_spectrum() {
-  const Material& material = scene_.material;
   Spectrum& s = spectrum_;
   s.lambda_on = model_.layout.lambda;
   s.mu_on = model_.layout.mu;
@@ -141,27 +140,46 @@ void Schedule::make_spectrum() {
     double& rate = branch.modulus == Modulus::lambda ? s.lambda_rate : s.mu_rate;
     rate = std::max(rate, branch.rate);
   }
-  // Rates that differ by rounding are one: the branches are combined then.
-  if (s.lambda_on && s.mu_on && combined(material)) s.mu_rate = s.lambda_rate;
-  // J_lambda never exceeds J_mu: (e_x + e_y)^2 <= 2 e_x^2 + 2 e_y^2 + g^2.
-  const Moduli springs = material.instantaneous();
-  if (springs.lambda > 0.0) s.lambda_share = springs.lambda / (springs.lambda + springs.mu);
-  s.element_bound = model_.element_omega;
-  const bool parallel = !material.is_one_branch();
-  if (parallel) {
-    s.relaxations = relaxations_of(material);
-    s.viscous = material.viscous;
+  std::vector<Moduli> springs, dashpots;  // by region
+  for (const Patch& patch : model_.patches) {
+    springs.push_back(patch.material.instantaneous());
+    dashpots.push_back(patch.material.viscous);
+    // J_lambda never exceeds J_mu: (e_x + e_y)^2 <= 2 e_x^2 + 2 e_y^2 + g^2.
+    const Moduli& own = springs.back();
+    if (own.lambda > 0.0) s.lambda_share = std::max(s.lambda_share, own.lambda / (own.lambda + own.mu));
+    s.viscous.lambda = std::max(s.viscous.lambda, dashpots.back().lambda);
+    s.viscous.mu = std::max(s.viscous.mu, dashpots.back().mu);
   }
-  const bool damped = s.viscous.lambda > 0.0 || s.viscous.mu > 0.0;
+  s.element_bound = model_.element_omega;
+  s.several_materials = model_.has_several_materials();
+  const bool parallel = s.several_materials || model_.is_parallel();
+  if (s.several_materials) {
+    std::vector<Material> materials;
+    for (const Patch& patch : model_.patches) materials.push_back(patch.material);
+    for (const SharedRelaxation& each : relaxations_of(materials)) {
+      Relaxation largest{each.rate, {}};
+      for (const Moduli& moduli : each.moduli) {
+        largest.moduli.lambda = std::max(largest.moduli.lambda, moduli.lambda);
+        largest.moduli.mu = std::max(largest.moduli.mu, moduli.mu);
+      }
+      s.relaxations.push_back(largest);
+    }
+  } else {
+    // Rates that differ by rounding are one: the branches are combined then.
+    if (s.lambda_on && s.mu_on && combined(model_.material())) s.mu_rate = s.lambda_rate;
+    if (parallel) s.relaxations = relaxations_of(model_.material());
+  }
+  const bool damped = model_.has_viscous_part();
   double omega = 0.0, damping = 0.0;
   // Every set of constraints must give its eigenvalues, or none counts.
   const bool rates_differ =
       parallel ? damped || s.relaxations.size() > 1 : s.lambda_on && s.mu_on && s.lambda_rate != s.mu_rate;
-  bool eigenvalues =
-      scene_.time.integrator == IntegratorKind::euler && rates_differ && sets_.size() <= spectra_taken;
+  const bool euler = scene_.time.integrator == IntegratorKind::euler;
+  const bool bounds_only = scene_.time.integrator == IntegratorKind::rk4 && (s.several_materials || damped);
+  bool eigenvalues = rates_differ && (euler || bounds_only) && sets_.size() <= spectra_taken;
   const auto include = [&](const ConstraintSolver& constrained) {
     if (eigenvalues) {
-      const auto found = full_spectrum(model_, constrained);
+      const auto found = full_spectrum(model_, constrained, euler ? most_eigenvalues : few_eigenvalues);
       eigenvalues = !found.empty();
       s.eigenvalues.insert(s.eigenvalues.end(), found.begin(), found.end());
     }
@@ -169,7 +187,7 @@ void Schedule::make_spectrum() {
     omega = std::max(omega, bound.omega);
     s.lanczos_steps = std::max(s.lanczos_steps, bound.steps);
     if (damped) {
-      const double root = largest_frequency(model_, constrained, s.viscous).omega;
+      const double root = largest_frequency(model_, constrained, dashpots).omega;
       damping = std::max(damping, root * root);
     }
   };

@@ -52,7 +52,7 @@ class Schedule {
   // where it was not asked for before.
   std::shared_ptr<const ConstraintSolver> solver_holding(std::size_t i, const std::vector<HeldDof>& held);
   // Whether that needs no factor.
-  bool holding_is_free() const { return scene_.material.mass == Mass::lumped && scene_.constraints.empty(); }
+  bool holding_is_free() const { return model_.is_lumped() && scene_.constraints.empty(); }
   std::size_t holder_count() const { return holders_.size(); }
   // Steps of at most `bound` through all intervals and outputs.
   std::int64_t planned_steps(double bound) const;

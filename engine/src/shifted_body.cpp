@@ -8,7 +8,7 @@ namespace rheo {
 ShiftedBody::ShiftedBody(const Model& model, double omega) : AssembledBody(model, omega), system_(model) {
   const auto part = static_cast<Eigen::Index>(model.layout.part);
   increment_.setZero(part);
-  pull_.assign(2 * model.layout.part, 0.0);
+  for (const Patch& patch : model.patches) pull_.emplace_back(2 * patch.part, 0.0);
   right_.setZero(part);
   product_.setZero(part);
 }
@@ -30,6 +30,42 @@ double ShiftedBody::column_increment(double s, std::size_t column, std::span<con
       (2.0 * omega_ + omega_ * omega_ * s) * solver.row_times(column, x.data() + layout.v()) +
       omega_ * omega_ * solver.row_times(column, x.data() + layout.u());
   return s * (b - drift) / ((1.0 + omega_ * s) * (1.0 + omega_ * s));
+}
+
+void ShiftedBody::find_pull(double s, std::span<const double> x) {
+  const Layout& layout = model_.layout;
+  const double *u = x.data() + layout.u(), *v = x.data() + layout.v();
+  for (std::size_t r = 0; r < pull_.size(); ++r) {
+    const Patch& patch = model_.patches[r];
+    std::vector<double>& pull = pull_[r];
+    std::array<bool, 2> begun{};  // by modulus: something is in its places already
+    // value(i, j) of entry i of the patch, j of the mesh
+    const auto add = [&](std::size_t modulus, const auto& value) {
+      const bool adds = std::exchange(begun[modulus], true);
+      patch.for_each_dof([&](std::size_t i, std::size_t j) {
+        double& p = pull[4 * (i / 2) + 2 * modulus + i % 2];
+        const double w = value(i, j);
+        p = adds ? p + w : w;
+      });
+    };
+    for (const BranchPart& branch : layout.branches) {
+      if (branch.region != r) continue;
+      const double scale = 1.0 / (1.0 + s * branch.rate), ela = branch.ela;
+      const double* w = x.data() + branch.offset;
+      add(branch.modulus == Modulus::lambda ? 0 : 1, [&](std::size_t i, std::size_t j) {
+        return scale * (w[i] + s * ela * (v[j] + increment_[static_cast<Eigen::Index>(j)]));
+      });
+    }
+    const auto add_parallel = [&](std::size_t modulus, double elastic, double viscous) {
+      if (elastic == 0.0 && viscous == 0.0) return;
+      add(modulus, [&](std::size_t, std::size_t j) {
+        const double now = v[j] + increment_[static_cast<Eigen::Index>(j)];
+        return elastic * (u[j] + s * now) + viscous * now;
+      });
+    };
+    add_parallel(0, patch.material.elastic.lambda, patch.material.viscous.lambda);
+    add_parallel(1, patch.material.elastic.mu, patch.material.viscous.mu);
+  }
 }
 
 void ShiftedBody::solve_shifted(double s, std::span<const double> x, const Forcing& forcing,
@@ -67,35 +103,10 @@ void ShiftedBody::solve_shifted(double s, std::span<const double> x, const Forci
     right_ +=
         (forcing.weight[0] * (forcing.t - interval_->begin) + forcing.weight[1]) * interval_->force_rate;
   }
-  std::array<bool, 2> begun{};  // by modulus: something is in its places already
-  for (const BranchPart& branch : layout.branches) {
-    const double scale = 1.0 / (1.0 + s * branch.rate), ela = branch.ela;
-    const std::size_t modulus = branch.modulus == Modulus::lambda ? 0 : 1;
-    const bool adds = std::exchange(begun[modulus], true);
-    for (std::size_t i = 0; i < layout.part; ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      double& p = pull_[4 * (i / 2) + 2 * modulus + i % 2];
-      const double w = scale * (x[branch.offset + i] + s * ela * (v[k] + increment_[k]));
-      p = adds ? p + w : w;
-    }
-  }
-  const auto pull_parallel = [&](std::size_t modulus, double elastic, double viscous) {
-    if (elastic == 0.0 && viscous == 0.0) return;
-    const bool adds = begun[modulus];
-    const double* u = x.data() + layout.u();
-    for (std::size_t i = 0; i < layout.part; ++i) {
-      const auto k = static_cast<Eigen::Index>(i);
-      double& p = pull_[4 * (i / 2) + 2 * modulus + i % 2];
-      const double now = v[k] + increment_[k];
-      const double w = elastic * (u[i] + s * now) + viscous * now;
-      p = adds ? p + w : w;
-    }
-  };
-  pull_parallel(0, model_.material.elastic.lambda, model_.material.viscous.lambda);
-  pull_parallel(1, model_.material.elastic.mu, model_.material.viscous.mu);
-  system_.subtract_force(pull_, right_);
+  find_pull(s, x);
+  for (std::size_t r = 0; r < pull_.size(); ++r) system_.subtract_force(r, pull_[r], right_);
   right_ *= s;
-  if (driven && model_.material.mass == Mass::consistent) {
+  if (driven && !model_.is_lumped()) {
     model_.multiply_mass(increment_.data(), product_.data());
     right_ -= product_;
   }
@@ -106,9 +117,13 @@ void ShiftedBody::solve_shifted(double s, std::span<const double> x, const Forci
   VectorMap(out.data() + layout.v(), part) = increment_;
   for (const BranchPart& branch : layout.branches) {
     const double scale = s / (1.0 + s * branch.rate);
-    VectorMap(out.data() + branch.offset, part) =
-        scale *
-        (branch.ela * (v + increment_) - branch.rate * ConstVectorMap(x.data() + branch.offset, part));
+    const double ela = branch.ela, rate = branch.rate;
+    const double* w = x.data() + branch.offset;
+    double* d = out.data() + branch.offset;
+    model_.patches[branch.region].for_each_dof([&](std::size_t i, std::size_t j) {
+      const auto k = static_cast<Eigen::Index>(j);
+      d[i] = scale * (ela * (v[k] + increment_[k]) - rate * w[i]);
+    });
   }
 }
 

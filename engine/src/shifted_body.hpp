@@ -33,9 +33,12 @@ class ShiftedBody final : public AssembledBody {
   double column_increment(double s, std::size_t column, std::span<const double> x,
                           const Forcing& forcing) const;
 
+  // p of the increments that are told, by region.
+  void find_pull(double s, std::span<const double> x);
+
   ShiftedSystem system_;
   Vector increment_, right_, product_, target_;
-  std::vector<double> pull_;  // p, n x 4
+  std::vector<std::vector<double>> pull_;  // p, by region, 4 a node
 };
 
 }  // namespace rheo

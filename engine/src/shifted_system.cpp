@@ -15,17 +15,51 @@ namespace {
 // Of a known answer, the softest motion there is: a factor that gives less has lost the rest to rounding.
 constexpr double digits_needed = 1e-6;
 
-BlockPattern pattern_of(const Model& model) {
-  const auto n = static_cast<int>(model.node_mass.size());
+// Of the nodes of a region, or of none where nothing is stiff.
+BlockPattern pattern_of(const Patch& patch) {
+  const auto n = static_cast<int>(patch.part / 2);
   BlockPattern pattern;
   pattern.start.assign(1, 0);
-  const SparseMatrix& stiffness = model.layout.lambda ? model.j_lambda : model.j_mu;
+  const SparseMatrix& stiffness = patch.lambda ? patch.j_lambda : patch.j_mu;
   for (int i = 0; i < n; ++i) {
-    if (model.layout.lambda || model.layout.mu) {
+    if (patch.lambda || patch.mu) {
       for (SparseMatrix::InnerIterator it(stiffness, 2 * i); it; ++it) {
         if (it.col() % 2 == 0) pattern.column.push_back(static_cast<int>(it.col() / 2));
       }
-    } else if (model.material.mass == Mass::consistent) {
+    }
+    pattern.start.push_back(static_cast<int>(pattern.column.size()));
+  }
+  return pattern;
+}
+
+BlockPattern pattern_of(const Model& model) {
+  const Patch& first = model.patches.front();
+  if (!model.has_several_materials() && (first.lambda || first.mu)) return pattern_of(first);
+  const auto n = static_cast<int>(model.node_mass.size());
+  BlockPattern pattern;
+  pattern.start.assign(1, 0);
+  std::vector<std::vector<int>> columns(static_cast<std::size_t>(model.has_several_materials() ? n : 0));
+  if (model.has_several_materials()) {
+    for (const Patch& patch : model.patches) {
+      const BlockPattern own = pattern_of(patch);
+      for (int k = 0; k < own.nodes(); ++k) {
+        std::vector<int>& row = columns[static_cast<std::size_t>(patch.nodes[static_cast<std::size_t>(k)])];
+        for (int p = own.start[k]; p < own.start[k + 1]; ++p)
+          row.push_back(patch.nodes[static_cast<std::size_t>(own.column[p])]);
+      }
+    }
+  }
+  for (int i = 0; i < n; ++i) {
+    if (!columns.empty()) {
+      std::vector<int>& row = columns[static_cast<std::size_t>(i)];
+      row.push_back(i);
+      if (!model.is_lumped())
+        for (SparseMatrix::InnerIterator it(model.mass, i); it; ++it)
+          row.push_back(static_cast<int>(it.col()));
+      std::sort(row.begin(), row.end());
+      row.erase(std::unique(row.begin(), row.end()), row.end());
+      pattern.column.insert(pattern.column.end(), row.begin(), row.end());
+    } else if (!model.is_lumped()) {
       for (SparseMatrix::InnerIterator it(model.mass, i); it; ++it)
         pattern.column.push_back(static_cast<int>(it.col()));
     } else {
@@ -49,6 +83,21 @@ void copy_blocks(const BlockPattern& pattern, const SparseMatrix& matrix, std::s
       }
     }
   }
+}
+
+// By block of a region's pattern: its number in the pattern of the whole mesh.
+std::vector<int> places_in(const BlockPattern& whole, const BlockPattern& own, const Patch& patch) {
+  std::vector<int> places(own.column.size());
+  for (int k = 0; k < own.nodes(); ++k) {
+    const int node = patch.nodes[static_cast<std::size_t>(k)];
+    const auto begin = whole.column.begin() + whole.start[node];
+    const auto end = whole.column.begin() + whole.start[node + 1];
+    for (int p = own.start[k]; p < own.start[k + 1]; ++p) {
+      const int column = patch.nodes[static_cast<std::size_t>(own.column[p])];
+      places[p] = static_cast<int>(std::lower_bound(begin, end, column) - whole.column.begin());
+    }
+  }
+  return places;
 }
 
 }  // namespace
@@ -86,9 +135,14 @@ ShiftedSystem::ShiftedSystem(const Model& model)
       factor_bytes_(spare_->bytes()) {
   const BlockPattern& pattern = order_->pattern();
   values_.resize(pattern.column.size());
-  links_.resize(pattern.column.size());
-  if (model.layout.lambda) copy_blocks(pattern, model.j_lambda, 0, links_);
-  if (model.layout.mu) copy_blocks(pattern, model.j_mu, 4, links_);
+  for (const Patch& patch : model.patches) {
+    Links links{pattern_of(patch), {}, {}};
+    links.blocks.resize(links.pattern.column.size());
+    if (patch.lambda) copy_blocks(links.pattern, patch.j_lambda, 0, links.blocks);
+    if (patch.mu) copy_blocks(links.pattern, patch.j_mu, 4, links.blocks);
+    if (model.has_several_materials()) links.place = places_in(pattern, links.pattern, patch);
+    links_.push_back(std::move(links));
+  }
   const auto size = static_cast<Eigen::Index>(model.layout.part);
   work_.setZero(size);
   correction_.setZero(size);
@@ -124,20 +178,30 @@ ShiftedSystem::Found ShiftedSystem::prepare(double s,
 
 // S, where driven degrees of freedom have the row and column of the unit matrix.
 void ShiftedSystem::fill_values(const Factor& factor) {
-  const Material& material = model_.material;
   const double s = factor.s;
-  double lambda = s * s * material.elastic.lambda + s * material.viscous.lambda;
-  double mu = s * s * material.elastic.mu + s * material.viscous.mu;
-  for (const BranchPart& branch : model_.layout.branches)
-    (branch.modulus == Modulus::lambda ? lambda : mu) += s * s * branch.ela / (1.0 + s * branch.rate);
-  const bool consistent = material.mass == Mass::consistent;
+  std::fill(values_.begin(), values_.end(), Block{});
+  for (std::size_t r = 0; r < links_.size(); ++r) {
+    const Material& material = model_.patches[r].material;
+    double lambda = s * s * material.elastic.lambda + s * material.viscous.lambda;
+    double mu = s * s * material.elastic.mu + s * material.viscous.mu;
+    for (const BranchPart& branch : model_.layout.branches) {
+      if (branch.region != r) continue;
+      (branch.modulus == Modulus::lambda ? lambda : mu) += s * s * branch.ela / (1.0 + s * branch.rate);
+    }
+    const Links& links = links_[r];
+    for (std::size_t p = 0; p < links.blocks.size(); ++p) {
+      Block& block = values_[links.place.empty() ? p : static_cast<std::size_t>(links.place[p])];
+      const std::array<double, 8>& link = links.blocks[p];
+      for (std::size_t k = 0; k < 4; ++k) block[k] += lambda * link[k] + mu * link[4 + k];
+    }
+  }
+  const bool consistent = !model_.is_lumped();
   const BlockPattern& pattern = order_->pattern();
   for (int node = 0; node < pattern.nodes(); ++node) {
     for (int p = pattern.start[node]; p < pattern.start[node + 1]; ++p) {
       const int entry = p - pattern.start[node];
       const int column = pattern.column[p];
-      Block block;
-      for (int k = 0; k < 4; ++k) block[k] = lambda * links_[p][k] + mu * links_[p][4 + k];
+      Block& block = values_[p];
       const double mass = consistent ? model_.mass.valuePtr()[model_.mass.outerIndexPtr()[node] + entry]
                                      : (column == node ? model_.node_mass[node] : 0.0);
       block[0] += mass;
@@ -148,7 +212,6 @@ void ShiftedSystem::fill_values(const Factor& factor) {
           block[2 * row + col] = column == node && row == col ? 1.0 : 0.0;
         }
       }
-      values_[p] = block;
     }
   }
 }
@@ -198,14 +261,16 @@ void ShiftedSystem::spread(const Factor& factor, const Vector& multipliers) {
   }
 }
 
-void ShiftedSystem::subtract_force(std::span<const double> pull, Vector& r) const {
-  const BlockPattern& pattern = order_->pattern();
+void ShiftedSystem::subtract_force(std::size_t region, std::span<const double> pull, Vector& r) const {
+  const Links& links = links_[region];
+  const BlockPattern& pattern = links.pattern;
+  const std::vector<std::int32_t>& nodes = model_.patches[region].nodes;
   for (int node = 0; node < pattern.nodes(); ++node) {
     const double* own = pull.data() + 4 * static_cast<std::size_t>(node);
     double lambda_x = 0.0, lambda_y = 0.0, mu_x = 0.0, mu_y = 0.0;
     for (int p = pattern.start[node]; p < pattern.start[node + 1]; ++p) {
       const double* other = pull.data() + 4 * static_cast<std::size_t>(pattern.column[p]);
-      const std::array<double, 8>& link = links_[p];
+      const std::array<double, 8>& link = links.blocks[p];
       const double d0 = other[0] - own[0], d1 = other[1] - own[1];
       const double d2 = other[2] - own[2], d3 = other[3] - own[3];
       lambda_x += link[0] * d0 + link[1] * d1;
@@ -213,8 +278,9 @@ void ShiftedSystem::subtract_force(std::span<const double> pull, Vector& r) cons
       mu_x += link[4] * d2 + link[5] * d3;
       mu_y += link[6] * d2 + link[7] * d3;
     }
-    r[2 * node] -= lambda_x + mu_x;
-    r[2 * node + 1] -= lambda_y + mu_y;
+    const Eigen::Index dof = 2 * (nodes.empty() ? node : nodes[static_cast<std::size_t>(node)]);
+    r[dof] -= lambda_x + mu_x;
+    r[dof + 1] -= lambda_y + mu_y;
   }
 }
 

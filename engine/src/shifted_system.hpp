@@ -1,7 +1,7 @@
 // The equations that one implicit stage of length s leaves for the velocities, factored once for each s and
 // set of constraints.
 //
-//   S = M + lambda(s) J_lambda + mu(s) J_mu
+//   S = M + sum over the regions of (lambda(s) J_lambda + mu(s) J_mu)
 //   lambda(s) = sum over the branches of s^2 lambda_ela / (1 + s lambda_rate) + s^2 elastic + s viscous
 //   S_ff d_f = r_f where the increments d of driven degrees of freedom are given
 //   S d - A m = r, A^T d = target for general constraints: (A_f^T S_ff^-1 A_f) m = target - A^T d, by a dense
@@ -48,10 +48,10 @@ class ShiftedSystem {
   const std::vector<int>& single() const { return current_->single; }
   const std::vector<int>& general() const { return current_->general; }
 
-  // r -= J_lambda p_lambda + J_mu p_mu, the rows summed as sum over j of J_ij (p_j - p_i): what a rigid
-  // motion has in common at all nodes leaves no rounding behind, however stiff the body. pull: p, n x 4
-  // (lambda x, y, mu x, y)
-  void subtract_force(std::span<const double> pull, Vector& r) const;
+  // r -= J_lambda p_lambda + J_mu p_mu of a region, the rows summed as sum over j of J_ij (p_j - p_i): what a
+  // rigid motion has in common at all nodes leaves no rounding behind, however stiff the body. pull: p, 4 a
+  // node of the region (lambda x, y, mu x, y)
+  void subtract_force(std::size_t region, std::span<const double> pull, Vector& r) const;
 
   // d: on entry the increments of driven degrees of freedom and anything elsewhere, on return all of them.
   // r is overwritten. Returns how many sparse solves that took.
@@ -80,7 +80,14 @@ class ShiftedSystem {
   std::shared_ptr<const FactorOrder> order_;
   std::unique_ptr<SparseFactor> spare_;  // analysed, for the next factor; or none
   std::size_t factor_bytes_;
-  std::vector<std::array<double, 8>> links_;  // the blocks of J_lambda and J_mu, row-major, by the pattern
+  // Of a region: the blocks of J_lambda and J_mu, row-major, by a pattern of its own nodes; and where each
+  // lies in the pattern of all (nowhere listed where they are the same).
+  struct Links {
+    BlockPattern pattern;
+    std::vector<std::array<double, 8>> blocks;
+    std::vector<int> place;
+  };
+  std::vector<Links> links_;
   std::vector<Block> values_;
   std::deque<std::unique_ptr<Factor>> factors_;  // the latest first
   Factor* current_ = nullptr;

@@ -1,5 +1,6 @@
 #include "rheo/simulation.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
@@ -7,6 +8,7 @@
 #include "body_choice.hpp"
 #include "kernels/flush_denormals.hpp"
 #include "model.hpp"
+#include "rheo/deformation.hpp"
 #include "schedule.hpp"
 #include "stepping.hpp"
 
@@ -34,18 +36,19 @@ struct Simulation::Impl {
   Impl(Scene&& s, const SimulationOptions& options)
       : plan(s.time.accuracy != 0.0 ? std::optional(plan_accuracy(s, options)) : std::nullopt),
         scene(decided(std::move(s), plan)),
-        model(validated(scene).mesh, scene.material, assembly_for(scene, options.kernel)),
+        model(validated(scene).mesh, regions_of(scene), assembly_for(scene, options.kernel)),
         asked(options),
         schedule(scene, model),
         spectrum(schedule.spectrum()),
         body(make_body(scene, model, options.threads)),
         integrator(make_integrator(scene.time.integrator, body->size(),
                                    exponential_settings(scene, spectrum, schedule.interval_count()))),
-        zeros(model.layout.part, 0.0),
         w_lambda(Vector::Zero(static_cast<Eigen::Index>(model.layout.part))),
         w_mu(w_lambda),
         pull_lambda(w_lambda),
         pull_mu(w_lambda),
+        branch_lambda(w_lambda),
+        branch_mu(w_lambda),
         stepping(scene, model, schedule, *body, *integrator, limits(),
                  options.energies ? 1 : unasked_stride) {}
 
@@ -55,16 +58,48 @@ struct Simulation::Impl {
     return std::span<const double>(now().state()).subspan(offset, model.layout.part);
   }
 
-  std::span<const double> sum(Modulus modulus, PartSum parts, Vector& memory) {
-    const ConstVectorMap result = sum_of_parts(model, modulus, parts, now().state(), memory);
-    return {result.data(), static_cast<std::size_t>(result.size())};
+  // The mean over the regions around a node, by their areas.
+  void add_mean(const Patch& patch, const double* own, Vector& out) {
+    patch.for_each_dof([&](std::size_t i, std::size_t j) { out[j] += patch.area_share[i / 2] * own[i]; });
   }
-  std::span<const double> branch(Modulus modulus, std::size_t number) {
-    assert(number < model.material.branch_count());
-    for (const BranchPart& part : model.layout.branches) {
-      if (part.modulus == modulus && part.number == number) return part_of_state(part.offset);
+  std::span<const double> sum(Modulus modulus, PartSum parts, Vector& memory) {
+    const std::span<const double> y = now().state();
+    if (!model.has_several_materials()) {
+      const ConstVectorMap result = sum_of_parts(model, 0, modulus, parts, y, memory);
+      return {result.data(), static_cast<std::size_t>(result.size())};
     }
-    return zeros;
+    memory.setZero();
+    for (std::size_t r = 0; r < model.patches.size(); ++r)
+      add_mean(model.patches[r], sum_of_parts(model, r, modulus, parts, y, work).data(), memory);
+    return {memory.data(), static_cast<std::size_t>(memory.size())};
+  }
+  std::span<const double> branch(Modulus modulus, std::size_t number, Vector& memory) {
+    assert(number < model.branch_count());
+    memory.setZero();
+    for (const BranchPart& part : model.layout.branches) {
+      if (part.modulus != modulus || part.number != number) continue;
+      if (!model.has_several_materials()) return part_of_state(part.offset);
+      add_mean(model.patches[part.region], now().state().data() + part.offset, memory);
+    }
+    return {memory.data(), static_cast<std::size_t>(memory.size())};
+  }
+  void find_stress(std::span<double> out) {
+    if (!model.has_several_materials()) {
+      rheo::stress(scene.mesh, sum(Modulus::lambda, PartSum::pull, pull_lambda),
+                   sum(Modulus::mu, PartSum::pull, pull_mu), out);
+      return;
+    }
+    const std::span<const double> y = now().state();
+    const auto spread = [&](std::size_t region, Modulus modulus, Vector& memory) {
+      const double* own = sum_of_parts(model, region, modulus, PartSum::pull, y, work).data();
+      memory.setZero();
+      model.patches[region].for_each_dof([&](std::size_t i, std::size_t j) { memory[j] = own[i]; });
+      return std::span<const double>(memory.data(), static_cast<std::size_t>(memory.size()));
+    };
+    for (std::size_t r = 0; r < model.patches.size(); ++r) {
+      const auto l = spread(r, Modulus::lambda, pull_lambda), m = spread(r, Modulus::mu, pull_mu);
+      rheo::stress(scene.mesh, model.patches[r].triangles, l, m, out);
+    }
   }
 
   std::optional<AccuracyPlan> plan;
@@ -75,8 +110,9 @@ struct Simulation::Impl {
   Spectrum spectrum;
   std::unique_ptr<Body> body;
   std::unique_ptr<Integrator> integrator;
-  std::vector<double> zeros;
-  Vector w_lambda, w_mu, pull_lambda, pull_mu;  // 2n each, where they are sums
+  // 2n each, where they are sums or means.
+  Vector w_lambda, w_mu, pull_lambda, pull_mu, branch_lambda, branch_mu;
+  Vector work;
   Stepping stepping;
 };
 
@@ -134,6 +170,32 @@ std::span<const double> Simulation::reaction_at(std::span<const HeldDof> held) {
   return impl_->now().reaction_at(time(), held);
 }
 
+SavedState Simulation::save() const {
+  const auto copy = [](std::span<const double> x) { return std::vector<double>(x.begin(), x.end()); };
+  SavedState saved{time(), copy(u()), copy(v()), {}, {}};
+  for (std::size_t k = 0; k < impl_->model.material.branch_count(); ++k) {
+    saved.w_lambda.push_back(copy(w_lambda(k)));
+    saved.w_mu.push_back(copy(w_mu(k)));
+  }
+  return saved;
+}
+
+void Simulation::resume(const SavedState& saved) {
+  const FlushDenormals flush;
+  const Layout& layout = impl_->model.layout;
+  assert(saved.u.size() == layout.part && saved.v.size() == layout.part);
+  std::vector<double> y(layout.size(), 0.0);
+  std::copy(saved.u.begin(), saved.u.end(), y.begin() + static_cast<std::ptrdiff_t>(layout.u()));
+  std::copy(saved.v.begin(), saved.v.end(), y.begin() + static_cast<std::ptrdiff_t>(layout.v()));
+  for (const BranchPart& branch : layout.branches) {
+    const auto& all = branch.modulus == Modulus::lambda ? saved.w_lambda : saved.w_mu;
+    if (branch.number >= all.size()) continue;
+    const std::vector<double>& w = all[branch.number];
+    std::copy(w.begin(), w.end(), y.begin() + static_cast<std::ptrdiff_t>(branch.offset));
+  }
+  impl_->stepping.resume(saved.t, y);
+}
+
 std::span<const double> Simulation::u() const {
   return impl_->part_of_state(impl_->model.layout.u());
 }
@@ -147,16 +209,20 @@ std::span<const double> Simulation::w_mu() const {
   return impl_->sum(Modulus::mu, PartSum::residual, impl_->w_mu);
 }
 std::span<const double> Simulation::w_lambda(std::size_t branch) const {
-  return impl_->branch(Modulus::lambda, branch);
+  return impl_->branch(Modulus::lambda, branch, impl_->branch_lambda);
 }
 std::span<const double> Simulation::w_mu(std::size_t branch) const {
-  return impl_->branch(Modulus::mu, branch);
+  return impl_->branch(Modulus::mu, branch, impl_->branch_mu);
 }
 std::span<const double> Simulation::pull_lambda() const {
   return impl_->sum(Modulus::lambda, PartSum::pull, impl_->pull_lambda);
 }
 std::span<const double> Simulation::pull_mu() const {
   return impl_->sum(Modulus::mu, PartSum::pull, impl_->pull_mu);
+}
+
+void Simulation::stress(std::span<double> out) const {
+  impl_->find_stress(out);
 }
 
 Energies Simulation::energies() const {

@@ -96,7 +96,7 @@ double Spectrum::slowest_rate() const {
 
 bool stable_step_is_bound(const Spectrum& spectrum, IntegratorKind integrator) {
   if (has_no_limit(integrator) || !spectrum.eigenvalues.empty()) return false;
-  if (spectrum.viscous_max > 0.0) return true;
+  if (spectrum.viscous_max > 0.0 || spectrum.several_materials) return true;
   if (integrator != IntegratorKind::euler) return false;
   return spectrum.relaxations.size() > 1 ||
          (spectrum.lambda_on && spectrum.mu_on && spectrum.lambda_rate != spectrum.mu_rate);
@@ -262,13 +262,83 @@ class ParallelModes {
   double best_ratio_ = -1.0, best_decline_ = 0.0, span_ = 0.0;  // of the sample that limits; -1: none
 };
 
+// The modes of several materials, by the shares that rates may have in them (stability.hpp). For a given s
+// the sum of c_k / (s + r_k) is a point in the hull of points on an arc of a circle, in the order of the
+// rates: what is on the hull's edge, where the limiting s are, has two neighbouring rates or the first and
+// the last.
+class FreeModes {
+ public:
+  FreeModes(const Spectrum& spectrum, IntegratorKind integrator)
+      : spectrum_(spectrum), integrator_(integrator) {
+    for (const Relaxation& each : spectrum.relaxations) rates_.push_back(each.rate);
+  }
+
+  double limit() {
+    for (const double rate : rates_)
+      if (rate > 0.0) take(-rate);
+    if (rates_.empty()) {
+      if (spectrum_.viscous_max > 0.0) take(-spectrum_.viscous_max);
+      return step_;
+    }
+    pair(rates_.front(), rates_.back());
+    for (std::size_t k = 0; k + 1 < rates_.size(); ++k) pair(rates_[k], rates_[k + 1]);
+    return step_;
+  }
+
+ private:
+  void take(std::complex<double> s) {
+    if (integrator_ == IntegratorKind::rk4 && std::abs(s) * step_ < rk4_inner_radius) return;
+    step_ = std::min(step_, stable_step_of(s, integrator_));
+  }
+
+  void pair(double p, double q) {
+    constexpr int shares = 8, dampings = 8;
+    const int last = p == q ? 0 : shares;
+    const double omega_max = spectrum_.omega_max, viscous_max = spectrum_.viscous_max;
+    const double fastest = std::max({p, q, omega_max, viscous_max});
+    for (int octave = 0; octave < 48; ++octave) {
+      const double omega = omega_max * std::exp2(-octave / 8.0);
+      if (octave > 0 && omega < 0.02 * fastest) break;
+      for (int k = 0; k <= (viscous_max > 0.0 ? dampings : 0); ++k) {
+        const double d = viscous_max * k / dampings;
+        if (integrator_ == IntegratorKind::rk4 && (std::max({p, q, d}) + omega) * step_ < rk4_inner_radius)
+          continue;
+        for (int i = 0; i <= last; ++i) mode(omega, static_cast<double>(i) / shares, p, q, d);
+      }
+    }
+  }
+
+  // s + d + omega^2 (a / (s + p) + (1 - a) / (s + q)) = 0
+  void mode(double omega, double a, double p, double q, double d) {
+    const double size = std::max({p, q, d});
+    if (size < 1e-8 * omega) {
+      // To first order: a general solver would lose the real part.
+      take({-0.5 * (d + a * p + (1.0 - a) * q), omega});
+      return;
+    }
+    const double first = omega * std::sqrt(a), second = omega * std::sqrt(1.0 - a);
+    Eigen::Matrix3d m;
+    m << -d, -first, -second, first, -p, 0, second, 0, -q;
+    const Eigen::Vector3cd values = Eigen::EigenSolver<Eigen::Matrix3d>(m, false).eigenvalues();
+    for (const std::complex<double> s : values) {
+      if (std::abs(s) > 1e-13 * (size + omega)) take({std::min(s.real(), 0.0), s.imag()});
+    }
+  }
+
+  const Spectrum& spectrum_;
+  IntegratorKind integrator_;
+  std::vector<double> rates_;
+  double step_ = infinite;
+};
+
 }  // namespace
 
 double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
   if (has_no_limit(integrator)) return infinite;
   double step = infinite;
   const bool rk4 = integrator == IntegratorKind::rk4;
-  const bool parallel = !spectrum.relaxations.empty() || spectrum.viscous_max > 0.0;
+  const bool parallel =
+      spectrum.several_materials || !spectrum.relaxations.empty() || spectrum.viscous_max > 0.0;
   const auto include = [&](std::complex<double> s) {
     if (rk4 && std::abs(s) * step < rk4_inner_radius) return;  // stable as it is
     step = std::min(step, stable_step_of(s, integrator));
@@ -276,7 +346,10 @@ double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
 
   const double p = spectrum.lambda_on ? spectrum.lambda_rate : 0.0;
   const double q = spectrum.mu_on ? spectrum.mu_rate : 0.0;
-  if (parallel) {
+  if (spectrum.several_materials) {
+    // (What lies between the samples moves the limit by less than the factor.)
+    step = 0.995 * FreeModes(spectrum, integrator).limit();
+  } else if (parallel) {
     step = ParallelModes(spectrum, integrator).limit();
   } else {
     // Deformations that leave a residual force without force decay by its own rate alone.

@@ -48,6 +48,12 @@ int fastest_node(const VectorMap& v) {
   return static_cast<int>(found);
 }
 
+std::vector<Material> materials_of(const Model& model) {
+  std::vector<Material> all;
+  for (const Patch& patch : model.patches) all.push_back(patch.material);
+  return all;
+}
+
 }  // namespace
 
 Stepping::Stepping(const Scene& scene, const Model& model, Schedule& schedule, Body& body,
@@ -60,7 +66,7 @@ Stepping::Stepping(const Scene& scene, const Model& model, Schedule& schedule, B
       limits_(limits),
       stride_(stride),
       readings_(model, body),
-      rest_(model.material, model.layout.part,
+      rest_(materials_of(model), model.layout.part,
             scene.time.integrator == IntegratorKind::exponential
                 ? std::max(way_at_rest, tolerance_at_rest * scene.time.tolerance)
                 : way_at_rest),
@@ -85,7 +91,7 @@ bool Stepping::books_dissipated() const {
   return !takes_long_steps(scene_.time.integrator) ||
          (std::all_of(model_.layout.branches.begin(), model_.layout.branches.end(),
                       [](const BranchPart& branch) { return branch.rate == 0.0; }) &&
-          model_.material.viscous.lambda == 0.0 && model_.material.viscous.mu == 0.0);
+          !model_.has_viscous_part());
 }
 
 void Stepping::enter(std::size_t i) {
@@ -175,7 +181,7 @@ bool Stepping::looks_at_rest() {
 void Stepping::pass_at_rest(double end, std::int64_t steps) {
   const std::span<double> y = readings_.state();
   for (const BranchPart& branch : model_.layout.branches) {
-    VectorMap(y.data() + branch.offset, static_cast<Eigen::Index>(model_.layout.part)) *=
+    VectorMap(y.data() + branch.offset, static_cast<Eigen::Index>(branch.size)) *=
         std::exp(-branch.rate * (end - time_));
   }
   body_.load(y);
@@ -214,6 +220,7 @@ std::optional<Divergence> Stepping::run_segment(double end) {
     time_ = k + 1 == n ? end : start + static_cast<double>(k + 1) * h;
     ++body_.counters().steps;
     ++steps_since_look_;
+    if (FlushDenormals::is_on()) ++body_.counters().flushed_steps;
     body_.impose_prescribed(time_);
     readings_.state_changed();
     if ((k + 1) % stride != 0 && k + 1 != n) continue;
@@ -291,6 +298,25 @@ void Stepping::attach(Hands& hands, StepLimits limits) {
   readings_.reserve_reactions();
   hands.prepare(schedule_);
   enter_now();
+}
+
+void Stepping::resume(double t, std::span<const double> y) {
+  std::copy(y.begin(), y.end(), readings_.state().begin());
+  body_.load(y);
+  readings_.state_changed();
+  readings_.state();
+  diverged_.reset();
+  book_ = {};
+  holds_.forget();
+  excuses_ = 0;
+  entered_ = false;
+  index_ = 0;
+  while (schedule_.end(index_) <= t || same_time(schedule_.end(index_), t)) ++index_;
+  time_ = t;
+  enter_from(t);
+  // What it holds has gone in before.
+  const EnergySample& now = readings_.sample(time_);
+  book_.allow(now.kinetic + now.stored);
 }
 
 std::optional<Divergence> Stepping::advance(double t) {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "energy_book.hpp"
@@ -34,6 +35,9 @@ class Stepping {
   void attach(Hands& hands, StepLimits limits);
   // At a time in the current interval the hands changed what they do.
   void enter_now() { enter_from(time_); }
+
+  // Goes on from a state in the mesh's order at a time, as if the scene began there.
+  void resume(double t, std::span<const double> y);
 
   const StepLimits& limits() const { return limits_; }
   double largest_step() const { return largest_step_; }

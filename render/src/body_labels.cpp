@@ -98,7 +98,7 @@ void BodyLabels::draw(Canvas& canvas, std::span<const Rect> boxes, TextSize size
   for (std::size_t k = 0; k < boxes.size(); ++k) {
     const Rect& box = boxes[k];
     if (is_empty(box)) continue;
-    canvas.text({(box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2}, Align::center, size, theme::ink,
+    canvas.text({(box.x0 + box.x1) / 2, (box.y0 + box.y1) / 2}, Align::center, size, canvas.palette().ink,
                 canvas.fit(size, labels_[k].text, box.width() + 1.0f));
   }
 }

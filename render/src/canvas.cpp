@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "imgui_renderer.hpp"
+#include "theme.hpp"
 #include "typeset.hpp"
 
 extern "C" {
@@ -134,6 +135,7 @@ struct Canvas::Impl {
   }
 
   ImguiRenderer renderer;
+  Palette palette = theme::light;
   int width;
   int height;
   ImFontAtlas atlas;
@@ -155,6 +157,12 @@ int Canvas::width() const {
 }
 int Canvas::height() const {
   return impl_->height;
+}
+const Palette& Canvas::palette() const {
+  return impl_->palette;
+}
+void Canvas::set_palette(const Palette& palette) {
+  impl_->palette = palette;
 }
 float Canvas::unit() const {
   return impl_->sizes[1] / 20.0f;

@@ -34,6 +34,16 @@ struct Color {
   std::uint8_t r = 0, g = 0, b = 0, a = 255;
 };
 
+// The colours of a picture.
+struct Palette {
+  Color paper;
+  Color ink;         // text, outline
+  Color soft_ink;    // axes, hatches, rest shape
+  Color force;       // traction arrows
+  Color plain_fill;  // a body without a scalar
+  Color wire;        // mesh lines
+};
+
 enum class Align { left, center, right };
 enum class TextSize { small, normal, title };
 
@@ -49,6 +59,8 @@ class Canvas {
 
   int width() const;
   int height() const;
+  const Palette& palette() const;  // light unless set
+  void set_palette(const Palette& palette);
   float unit() const;  // lines' unit: 1 in a picture 720 pixels high
   float text_size(TextSize size) const;
 

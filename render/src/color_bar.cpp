@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "colormap.hpp"
-#include "theme.hpp"
 #include "ticks.hpp"
 
 namespace render {
@@ -64,8 +63,8 @@ void draw_color_bar(Canvas& canvas, const ColorBar& bar, const Rect& area) {
                    std::round(area.x0 + 0.9f * text), std::round(area.y1)};
   Ticks ticks = bar_ticks(bar, bar_tick_count(canvas, strip.height()));
   thin_out(canvas, bar, std::max(strip.height(), 1.0f), ticks);
-  canvas.label({area.x0, area.y0 + 0.5f * normal}, Align::left, TextSize::normal, theme::ink, bar.name);
-  canvas.label({area.x0, area.y0 + normal + 0.7f * text}, Align::left, TextSize::small, theme::soft_ink,
+  canvas.label({area.x0, area.y0 + 0.5f * normal}, Align::left, TextSize::normal, canvas.palette().ink, bar.name);
+  canvas.label({area.x0, area.y0 + normal + 0.7f * text}, Align::left, TextSize::small, canvas.palette().soft_ink,
                bar_unit(bar, ticks));
   if (strip.height() < 2) return;
 
@@ -80,12 +79,12 @@ void draw_color_bar(Canvas& canvas, const ColorBar& bar, const Rect& area) {
     const std::size_t below = spread ? i * 255 / slices : 0, above = spread ? (i + 1) * 255 / slices : 0;
     canvas.gradient({strip.x0, edge(i + 1), strip.x1, edge(i)}, color(above), color(below));
   }
-  canvas.frame(strip, theme::ink, std::max(1.0f, canvas.unit()));
+  canvas.frame(strip, canvas.palette().ink, std::max(1.0f, canvas.unit()));
   for (std::size_t i = 0; i < ticks.at.size(); ++i) {
     const double t = spread ? (ticks.at[i] - bar.range[0]) / (bar.range[1] - bar.range[0]) : 0.0;
     const float y = std::round(strip.y1 - strip.height() * static_cast<float>(t));
-    canvas.line({strip.x1, y}, {strip.x1 + 0.3f * text, y}, theme::ink, std::max(1.0f, canvas.unit()));
-    canvas.text({strip.x1 + 0.5f * text, y}, Align::left, TextSize::small, theme::ink, ticks.labels[i]);
+    canvas.line({strip.x1, y}, {strip.x1 + 0.3f * text, y}, canvas.palette().ink, std::max(1.0f, canvas.unit()));
+    canvas.text({strip.x1 + 0.5f * text, y}, Align::left, TextSize::small, canvas.palette().ink, ticks.labels[i]);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
 
 #include "context_backends.hpp"
 
@@ -49,6 +50,37 @@ std::unique_ptr<Context> open_either(const Opener& first, const Opener& second) 
     throw std::runtime_error(
         fmt::format("no OpenGL for drawing without a window: {}; {}", reason, error.what()));
   }
+}
+
+namespace {
+
+class AdoptedContext final : public Context {
+ public:
+  AdoptedContext(const std::function<FunctionAddress(const char*)>& find, std::function<void()> make_current,
+                 std::string name, int width, int height)
+      : make_current_(std::move(make_current)), name_(std::move(name)), width_(width), height_(height) {
+    make_current_();
+    gl_ = load_gl(find);
+  }
+  const Gl& gl() const override { return gl_; }
+  int width() const override { return width_; }
+  int height() const override { return height_; }
+  std::string description() const override { return describe_driver(gl_, name_.c_str()); }
+  void make_current() override { make_current_(); }
+
+ private:
+  std::function<void()> make_current_;
+  std::string name_;
+  int width_, height_;
+  Gl gl_;
+};
+
+}  // namespace
+
+std::unique_ptr<Context> adopt_context(const std::function<FunctionAddress(const char*)>& find,
+                                       std::function<void()> make_current, std::string name, int width,
+                                       int height) {
+  return std::make_unique<AdoptedContext>(find, std::move(make_current), std::move(name), width, height);
 }
 
 std::unique_ptr<Context> open_context(Backend backend, int width, int height) {

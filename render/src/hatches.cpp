@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "theme.hpp"
 
 namespace render {
 namespace {
@@ -39,7 +38,7 @@ class HatchedRun {
       for (; next < along; next += step) {
         const Point from{a.x + tx * next, a.y + ty * next};
         const Point to{from.x + (nx - tx) * 0.72f * reach, from.y + (ny - ty) * 0.72f * reach};
-        canvas.line(from, to, theme::soft_ink, width);
+        canvas.line(from, to, canvas.palette().soft_ink, width);
       }
       next -= along;
     }
@@ -93,7 +92,7 @@ void draw_hatches(Canvas& canvas, const Camera& camera, const BoundaryChains& bo
   for (const int node : held) {
     if (mark[static_cast<std::size_t>(node)] != held_node) continue;
     const Point p = node_pixel(camera, positions, node);
-    if (near_picture(canvas, p)) canvas.disk(p, radius, theme::ink);
+    if (near_picture(canvas, p)) canvas.disk(p, radius, canvas.palette().ink);
   }
 }
 

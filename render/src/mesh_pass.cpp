@@ -65,6 +65,8 @@ MeshPass::MeshPass(const Gl& gl, const MeshLayout& layout, const BoundaryChains&
       height_(height),
       node_count_(layout.rest.size() / 2),
       range_(layout.range),
+      plain_(theme::light.plain_fill),
+      wire_(theme::light.wire),
       mesh_program_(gl, "mesh", {"corner"}),
       dense_program_(gl, "dense", {}),
       line_program_(gl, "line", {"ends", "along"}),
@@ -236,7 +238,7 @@ void MeshPass::bind_colors(const GlProgram& program, float colored) const {
 
 void MeshPass::set_fill(const GlProgram& program) const {
   bind_colors(program, colored_);
-  uniform_color(gl_, program.uniform("plain"), theme::plain_fill);
+  uniform_color(gl_, program.uniform("plain"), plain_);
 }
 
 void MeshPass::fill(const Camera& camera, float line_width) const {
@@ -253,7 +255,7 @@ void MeshPass::fill(const Camera& camera, float line_width) const {
     return;
   }
   gl_.Uniform1f(program.uniform("wire_half"), line_width / 2);
-  uniform_color(gl_, program.uniform("wire"), theme::wire);
+  uniform_color(gl_, program.uniform("wire"), wire_);
   gl_.BindVertexArray(mesh_array_.id());
   gl_.DrawArrays(GL_TRIANGLES, 0, corner_count_);
 }

@@ -30,6 +30,12 @@ class MeshPass {
  public:
   MeshPass(const Gl& gl, const MeshLayout& layout, const BoundaryChains& boundary, int width, int height);
 
+  // From the next set_nodes() on; the layout's until then.
+  void set_range(const std::array<double, 2>& range) { range_ = range; }
+  void set_colors(Color plain, Color wire) {
+    plain_ = plain;
+    wire_ = wire;
+  }
   void set_nodes(std::span<const double> positions, std::span<const double> scalar);
   std::int64_t uploads() const { return uploads_; }  // by set_nodes
   void fill(const Camera& camera, float line_width) const;
@@ -78,6 +84,7 @@ class MeshPass {
   std::array<double, 2> origin_{};
   double reach_ = 1;  // coordinates are clamped to this, far outside of any picture [m]
   std::array<double, 2> range_{};
+  Color plain_, wire_;
   GlProgram mesh_program_;
   GlProgram dense_program_;
   GlProgram line_program_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -66,14 +67,15 @@ struct Shown {
 };
 
 struct MeshPicture::Impl {
-  Impl(Context& c, const MeshLayout& layout)
+  Impl(Context& c, const MeshLayout& layout, int width, int height)
       : context(current(c)),
         gl(c.gl()),
         body(layout),
-        target(gl, c.width(), c.height()),
-        canvas(gl, c.width(), c.height(),
+        view{.range = layout.range, .bounds = body.bounds, .arrow_scale = layout.arrow_scale},
+        target(gl, width, height),
+        canvas(gl, width, height,
                layout.title + layout.scalar_name + layout.scalar_unit + body.labels.characters()),
-        pass(gl, layout, body.boundary, c.width(), c.height()),
+        pass(gl, layout, body.boundary, width, height),
         arrows(body.boundary.edges, layout.triangles, {layout.rest.begin(), layout.rest.end()}) {}
 
   // The picture's parts: the title line, the colour bar, and what is left for the body.
@@ -118,7 +120,8 @@ struct MeshPicture::Impl {
     gl.Disable(GL_CULL_FACE);
     gl.Disable(GL_SCISSOR_TEST);
     gl.Disable(GL_BLEND);
-    gl.ClearColor(theme::paper.r / 255.0f, theme::paper.g / 255.0f, theme::paper.b / 255.0f, 1.0f);
+    const Color paper = canvas.palette().paper;
+    gl.ClearColor(paper.r / 255.0f, paper.g / 255.0f, paper.b / 255.0f, 1.0f);
     gl.Clear(GL_COLOR_BUFFER_BIT);
   }
 
@@ -129,13 +132,36 @@ struct MeshPicture::Impl {
     canvas.flush();
     pass.set_nodes(frame.positions, frame.scalar);
     pass.fill(camera, std::max(0.8f, 0.9f * unit));
-    Color rest = theme::ink;
+    Color rest = canvas.palette().ink;
     rest.a = 130;
-    pass.interfaces(camera, {theme::paper, theme::interface_rim_width(unit), 0});
-    pass.interfaces(camera, {theme::ink, theme::interface_width(unit), 0});
-    pass.rest_outline(camera, {rest, std::max(1.0f, 1.2f * unit), 9 * unit});
-    pass.outline(camera, {theme::ink, theme::outline_width(unit), 0});
+    pass.interfaces(camera, {canvas.palette().paper, theme::interface_rim_width(unit), 0});
+    pass.interfaces(camera, {canvas.palette().ink, theme::interface_width(unit), 0});
+    if (view.rest_shape == Show::yes)
+      pass.rest_outline(camera, {rest, std::max(1.0f, 1.2f * unit), 9 * unit});
+    pass.outline(camera, {canvas.palette().ink, theme::outline_width(unit), 0});
+    if (view.node_numbers == Show::yes) draw_node_numbers(camera, frame);
     arrows.draw(canvas, camera, frame, body.arrow_scale, longest_arrow, value_area);
+  }
+
+  // Those that have room: one in a square of the size of a number.
+  void draw_node_numbers(const Camera& camera, const MeshFrame& frame) {
+    const float text = canvas.text_size(TextSize::small);
+    const auto columns = static_cast<std::size_t>(static_cast<float>(canvas.width()) / (2.2f * text)) + 1;
+    const auto rows = static_cast<std::size_t>(static_cast<float>(canvas.height()) / (1.2f * text)) + 1;
+    std::vector<char> taken(columns * rows, 0);
+    for (std::size_t i = 0; i + 1 < frame.positions.size(); i += 2) {
+      const Point p = camera.pixel(frame.positions[i], frame.positions[i + 1]);
+      if (!(p.x >= 0 && p.y >= 0 && p.x < static_cast<float>(canvas.width()) &&
+            p.y < static_cast<float>(canvas.height())))
+        continue;
+      char& place = taken[static_cast<std::size_t>(p.y / (1.2f * text)) * columns +
+                          static_cast<std::size_t>(p.x / (2.2f * text))];
+      if (place != 0) continue;
+      place = 1;
+      canvas.disk(p, 2.5f * canvas.unit(), canvas.palette().ink);
+      canvas.text({p.x + 0.3f * text, p.y - 0.6f * text}, Align::left, TextSize::small, canvas.palette().ink,
+                  std::to_string(i / 2));
+    }
   }
 
   // As much of the title as leaves `taken` pixels at its right.
@@ -161,23 +187,24 @@ struct MeshPicture::Impl {
 
   void draw_heading(const Parts& p, const std::string& title) {
     const float y = (p.title.y0 + p.title.y1) / 2;
-    canvas.text({p.title.x0, y}, Align::left, TextSize::title, theme::ink, title);
+    canvas.text({p.title.x0, y}, Align::left, TextSize::title, canvas.palette().ink, title);
     if (!body.bar.name.empty()) draw_color_bar(canvas, body.bar, p.bar);
+  }
+
+  // The arrows of other frames are not known: room for them on every side.
+  Camera camera(const Parts& p) const {
+    const float margin = line_room(p.body) + (body.arrow_scale > 0 ? arrow_length(p.body) : 0.0f);
+    const float below = margin + body.labels.room(canvas, TextSize::normal);
+    return Framing(body.bounds, {margin, margin, margin, below}).fit(p.body);
   }
 
   // All of a frame but its time.
   void draw_still(const MeshFrame& frame, const Parts& p, const std::string& title) {
     begin();
-    // The arrows of other frames are not known: room for them on every side.
-    const float arrow = arrow_length(p.body);
-    const float margin = line_room(p.body) + (body.arrow_scale > 0 ? arrow : 0.0f);
-    const float below = margin + body.labels.room(canvas, TextSize::normal);
-    const Framing framing(body.bounds, {margin, margin, margin, below});
-    const Camera camera = framing.fit(p.body);
-    draw_body(camera, frame, 1, arrow, p.body);
+    const Camera seen = camera(p);
+    draw_body(seen, frame, 1, arrow_length(p.body), p.body);
     body.labels.draw(
-        canvas,
-        body.labels.boxes(canvas, camera, frame.positions, TextSize::normal, line_room(p.body), p.body),
+        canvas, body.labels.boxes(canvas, seen, frame.positions, TextSize::normal, line_room(p.body), p.body),
         TextSize::normal);
     draw_heading(p, title);
     canvas.flush();
@@ -187,6 +214,7 @@ struct MeshPicture::Impl {
   Context& context;
   const Gl& gl;
   Body body;
+  MeshView view;
   Target target;
   Canvas canvas;
   MeshPass pass;
@@ -201,7 +229,9 @@ struct MeshPicture::Impl {
 };
 
 MeshPicture::MeshPicture(Context& context, const MeshLayout& layout)
-    : impl_(std::make_unique<Impl>(context, layout)) {}
+    : MeshPicture(context, layout, context.width(), context.height()) {}
+MeshPicture::MeshPicture(Context& context, const MeshLayout& layout, int width, int height)
+    : impl_(std::make_unique<Impl>(context, layout, width, height)) {}
 
 MeshPicture::~MeshPicture() {
   if (impl_) impl_->context.make_current();
@@ -210,6 +240,52 @@ MeshPicture::~MeshPicture() {
 MeshPicture::MeshPicture(MeshPicture&&) noexcept = default;
 
 void MeshPicture::draw(const MeshFrame& frame, Image& out) {
+  draw(frame);
+  impl_->target.read(out);
+}
+
+void MeshPicture::read(Image& out) const {
+  impl_->context.make_current();
+  impl_->target.read(out);
+}
+
+void MeshPicture::set_view(const MeshView& view) {
+  Impl& m = *impl_;
+  if (m.view == view) return;
+  m.view = view;
+  m.body.bounds = usable_bounds(view.bounds);
+  m.body.arrow_scale = view.arrow_scale;
+  m.body.bar.range = view.range;
+  const Palette& palette = view.shade == Shade::dark ? theme::dark : theme::light;
+  m.canvas.set_palette(palette);
+  m.pass.set_range(view.range);
+  Color wire = palette.wire;
+  if (view.mesh_lines == Show::no) wire.a = 0;
+  m.pass.set_colors(palette.plain_fill, wire);
+  m.last.reset();
+  m.still_current = false;
+}
+
+const MeshView& MeshPicture::view() const {
+  return impl_->view;
+}
+
+PlaneInPicture MeshPicture::plane() const {
+  const Camera c = impl_->camera(impl_->parts());
+  return {c.pixel_x - c.scale * c.x0, c.pixel_y + c.scale * c.y0, c.scale};
+}
+
+unsigned MeshPicture::framebuffer() const {
+  return impl_->target.framebuffer();
+}
+int MeshPicture::width() const {
+  return impl_->canvas.width();
+}
+int MeshPicture::height() const {
+  return impl_->canvas.height();
+}
+
+void MeshPicture::draw(const MeshFrame& frame) {
   Impl& m = *impl_;
   m.context.make_current();
   const Impl::Parts p = m.parts();
@@ -236,10 +312,9 @@ void MeshPicture::draw(const MeshFrame& frame, Image& out) {
     }
     m.still_current = repeated;
   }
-  m.canvas.text({p.title.x1, (p.title.y0 + p.title.y1) / 2}, Align::right, TextSize::normal, theme::ink,
-                time);
+  m.canvas.text({p.title.x1, (p.title.y0 + p.title.y1) / 2}, Align::right, TextSize::normal,
+                m.canvas.palette().ink, time);
   m.canvas.flush();
-  m.target.read(out);
 }
 
 Image MeshPicture::sheet(std::span<const MeshFrame> frames) {
@@ -260,7 +335,7 @@ Image MeshPicture::sheet(std::span<const MeshFrame> frames) {
     const SheetLayout::Panel& panel = layout.panels[i];
     m.draw_body(panel.camera, frames[i], layout.hatch_size, layout.longest_arrow, {});
     if (!labels.empty()) m.body.labels.draw(m.canvas, labels[i], TextSize::small);
-    m.canvas.text(panel.time_at, Align::left, TextSize::small, theme::ink, panel.time);
+    m.canvas.text(panel.time_at, Align::left, TextSize::small, m.canvas.palette().ink, panel.time);
   }
   m.draw_heading(p, m.title_beside(p, 0.0f));
   m.canvas.flush();

@@ -8,13 +8,24 @@
 
 namespace render::theme {
 
-inline constexpr Color paper{252, 252, 253};
-inline constexpr Color ink{31, 36, 48};            // text, outline
-inline constexpr Color soft_ink{98, 107, 123};     // axes, hatches, rest shape
-inline constexpr Color faint{226, 229, 235};       // grids, separators
-inline constexpr Color force{200, 62, 38};         // traction arrows
-inline constexpr Color plain_fill{198, 210, 226};  // a body without a scalar
-inline constexpr Color wire{16, 20, 32, 120};      // mesh lines
+inline constexpr Palette light{.paper = {252, 252, 253},
+                               .ink = {31, 36, 48},
+                               .soft_ink = {98, 107, 123},
+                               .force = {200, 62, 38},
+                               .plain_fill = {198, 210, 226},
+                               .wire = {16, 20, 32, 120}};
+inline constexpr Palette dark{.paper = {24, 27, 33},
+                              .ink = {226, 230, 238},
+                              .soft_ink = {140, 149, 165},
+                              .force = {255, 122, 92},
+                              .plain_fill = {72, 88, 112},
+                              .wire = {8, 10, 16, 130}};
+
+// Of all pictures that are written to files.
+inline constexpr Color paper = light.paper;
+inline constexpr Color ink = light.ink;
+inline constexpr Color soft_ink = light.soft_ink;
+inline constexpr Color faint{226, 229, 235};  // grids, separators
 
 // Line colours that all kinds of colour vision tell apart. Source: M. Okabe and K. Ito, "Color universal
 // design" (2008).

@@ -191,9 +191,9 @@ void TractionArrows::draw(Canvas& canvas, const Camera& camera, const MeshFrame&
     const float ux = about.direction.x, uy = about.direction.y;
     const float head = head_length(length, unit), half = head_half_width(length, unit);
     const Point neck{tip.x - ux * head, tip.y - uy * head};
-    canvas.line(tail, {tip.x - ux * head * 0.8f, tip.y - uy * head * 0.8f}, theme::force, width);
+    canvas.line(tail, {tip.x - ux * head * 0.8f, tip.y - uy * head * 0.8f}, canvas.palette().force, width);
     canvas.triangle(tip, {neck.x - uy * half, neck.y + ux * half}, {neck.x + uy * half, neck.y - ux * half},
-                    theme::force);
+                    canvas.palette().force);
     drawn.push_back({tail, tip, std::max(half, width / 2)});
     const double size = std::hypot(frame.arrows[k].vector[0], frame.arrows[k].vector[1]);
     if (size < (1 - 1e-9) * largest) continue;
@@ -218,11 +218,11 @@ void TractionArrows::draw(Canvas& canvas, const Camera& camera, const MeshFrame&
   }
   const float plate_width = w + 0.4f * text, plate_height = 1.1f * text;
   const auto [x, y] = free_place(wanted, plate_width, plate_height, value_area, drawn, outline);
-  Color halo = theme::paper;
+  Color halo = canvas.palette().paper;
   halo.a = 215;
   canvas.rect({x - plate_width / 2, y - plate_height / 2, x + plate_width / 2, y + plate_height / 2}, halo,
               0.25f * text);
-  canvas.text({x, y}, Align::center, TextSize::small, theme::force, value);
+  canvas.text({x, y}, Align::center, TextSize::small, canvas.palette().force, value);
 }
 
 }  // namespace render

@@ -83,6 +83,49 @@ TEST_F(CountersOf, FramesOfABodyThatStandsStillAreDrawnOnce) {
   EXPECT_EQ(of(still, "force_evaluations"), 0);
 }
 
+#if defined(__x86_64__) && defined(__GNUC__)
+TEST_F(CountersOf, EveryStepTakesDenormalNumbersForZero) {
+  for (const std::string integrator : {"rk4", "exponential", "implicit"}) {
+    const auto c = counters("run", small_beam(), {"--integrator", integrator});
+    EXPECT_GT(of(c, "steps"), 0);
+    EXPECT_EQ(of(c, "flushed_steps"), of(c, "steps")) << integrator;
+  }
+}
+#endif
+
+// The material's numbers beside the steps: residual forces advanced, lambda and mu of each branch.
+TEST_F(CountersOf, BranchesAndDisplacementsAreAdvancedOnlyWhereNeeded) {
+  const auto both = counters("run", small_beam());
+  EXPECT_EQ(of(both, "branch_updates"), 2 * of(both, "force_evaluations"));
+  EXPECT_EQ(of(both, "displacement_updates"), of(both, "steps")) << "nothing feeds on u";
+  const auto no_mu = counters("run", small_beam_with("mu_ela = 5.0", "mu_ela = 0.0"));
+  EXPECT_EQ(of(no_mu, "branch_updates"), of(no_mu, "force_evaluations"));
+  const auto one_rate = counters("run", small_beam_with("mu_vis = 2.0", "mu_vis = 2.857142857142857"));
+  EXPECT_EQ(of(one_rate, "branch_updates"), of(one_rate, "force_evaluations"));
+  const auto elastic =
+      counters("run", small_beam_with("lambda_vis = 4.0\nmu_vis = 2.0", "lambda_vis = inf\nmu_vis = inf"));
+  EXPECT_EQ(of(elastic, "branch_updates"), 0);
+}
+
+// Equation (4) is solved only where constraints do not hold identically: Baumgarte's terms go with it.
+TEST_F(CountersOf, BaumgartesTermsAreLeftOutWhereTheConstraintHoldsIdentically) {
+  const std::string for_all = "[time]\nconstraints = \"baumgarte\"";
+  EXPECT_EQ(of(counters("run", small_beam()), "constraint_solves"), 0);
+  const auto all = counters("run", small_beam_with("[time]", for_all));
+  EXPECT_GE(of(all, "constraint_solves"), 4 * of(all, "steps"));
+  EXPECT_GT(of(all, "displacement_updates"), of(all, "steps")) << "its terms feed on u";
+}
+
+TEST_F(CountersOf, ABodyAtRestUnderItsWeightTakesNoSteps) {
+  std::string springy = small_beam_with("lambda_vis = 4.0\nmu_vis = 2.0",
+                                        "lambda_vis = 0.7\nmu_vis = 0.5\nelastic.lambda = 20.0\n"
+                                        "elastic.mu = 15.0\nviscous.lambda = 1.0\nviscous.mu = 1.0");
+  springy.replace(springy.find("\"left\""), 6, "\"bottom\"");
+  const auto c =
+      counters("run", springy + "\n[body_force]\nacceleration = [0.0, -1.0]\n", {"--duration", "20"});
+  EXPECT_GT(of(c, "steps_at_rest"), of(c, "steps") / 20);
+}
+
 TEST_F(CountersOf, AMeshThatMovesIsUploadedOnceAFrame) {
   const auto c = counters("render", small_beam());
   EXPECT_EQ(of(c, "frames_drawn"), outputs);

@@ -49,9 +49,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Wrong{"NoCommand", {}, {"no command", "run", "render", "check"}},
         Wrong{"UnknownCommand", {"rnu", "beam.toml"}, {"'rnu'", "did you mean run"}},
-        Wrong{"View",
-              {"view", "beam.toml"},
-              {"no command 'view'", RHEO_VERSION, "run, render, check and bench"}},
+        Wrong{"OptionOfOthersForView", {"view", "beam.toml", "--vtu"}, {"'--vtu'", "rheo view --help"}},
         Wrong{"NoScene", {"run"}, {"SCENE", "rheo run --help"}}, Wrong{"EmptyScene", {"run", ""}, {"SCENE"}},
         Wrong{"TwoScenes", {"run", "beam.toml", "other.toml"}, {"'other.toml'", "one scene"}},
         Wrong{"UnknownOption", {"run", "beam.toml", "--frce"}, {"'--frce'", "--force"}},
@@ -170,9 +168,8 @@ TEST_F(Usage, HelpNamesCommandsExitCodesAndExamples) {
   const Finished finished = rheo({"--help"});
   EXPECT_EQ(finished.exit_code, 0);
   EXPECT_EQ(finished.err, "");
-  for (const char* part : {"run", "render", "check", "bench", "Exit codes:", "Examples:"})
+  for (const char* part : {"run", "render", "view", "check", "bench", "Exit codes:", "Examples:"})
     EXPECT_THAT(finished.out, HasSubstr(part));
-  EXPECT_THAT(finished.out, Not(HasSubstr("view")));
 }
 
 TEST_F(Usage, HelpOfACommandNamesAllItsOptions) {

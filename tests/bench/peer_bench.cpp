@@ -58,8 +58,8 @@ int rate(realtype, N_Vector y, N_Vector out, void* data) {
   const auto part = static_cast<Eigen::Index>(m.layout.part);
   const VectorView x(N_VGetArrayPointer(y), 4 * part);
   VectorView r(N_VGetArrayPointer(out), 4 * part);
-  equations.force.noalias() = m.j_lambda * x.segment(2 * part, part);
-  equations.force.noalias() += m.j_mu * x.segment(3 * part, part);
+  equations.force.noalias() = m.j(rheo::Modulus::lambda) * x.segment(2 * part, part);
+  equations.force.noalias() += m.j(rheo::Modulus::mu) * x.segment(3 * part, part);
   r.segment(0, part) = x.segment(part, part);
   r.segment(part, part) = equations.inverse_mass.cwiseProduct(equations.c.interval.force - equations.force);
   r.segment(2 * part, part) =

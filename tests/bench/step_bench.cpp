@@ -67,8 +67,8 @@ void step_csr(benchmark::State& state) {
   Vector y = Eigen::Map<const Vector>(c.y.data(), static_cast<Eigen::Index>(c.y.size()));
   Vector k1(y.size()), k2(y.size()), k3(y.size()), k4(y.size()), z(y.size()), force(part);
   const auto f = [&](const Vector& x, Vector& out) {
-    force.noalias() = m.j_lambda * x.segment(2 * part, part);
-    force.noalias() += m.j_mu * x.segment(3 * part, part);
+    force.noalias() = m.j(rheo::Modulus::lambda) * x.segment(2 * part, part);
+    force.noalias() += m.j(rheo::Modulus::mu) * x.segment(3 * part, part);
     out.segment(0, part) = x.segment(part, part);
     out.segment(part, part) = inverse_mass.cwiseProduct(c.interval.force - force);
     out.segment(2 * part, part) =
@@ -90,7 +90,8 @@ void step_csr(benchmark::State& state) {
   for (int k = 0; k < hashed_steps; ++k) step();
   const double hash = hash_of({y.data(), static_cast<std::size_t>(y.size())});
   for (auto _ : state) step();
-  const auto entries = static_cast<double>(m.j_lambda.nonZeros() + m.j_mu.nonZeros());
+  const auto entries =
+      static_cast<double>(m.j(rheo::Modulus::lambda).nonZeros() + m.j(rheo::Modulus::mu).nonZeros());
   report(state, c, 4 * (12 * entries + 8.0 * static_cast<double>(part) * 12),
          4 * (2 * entries + 20.0 * static_cast<double>(part)), hash);
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the benchmark programs and prints, as Markdown, the tables that README shows; draws run time against error.
 
-    python3 tests/bench/tables.py [--build build/release] [--repetitions 9] [--out out/tables]
+    python3 tests/bench/tables.py [--build build/release] [--repetitions 5] [--out out/tables]
                                   [--max-triangles 1000000] [--budget 120]
                                   [--scenes beam,beam_fine] [--refined 1000,10000] [--threads N]
 
@@ -349,7 +349,7 @@ def print_integrators(arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=pathlib.Path, default=TOP / "build" / "release")
-    parser.add_argument("--repetitions", type=int, default=9)
+    parser.add_argument("--repetitions", type=int, default=5)
     parser.add_argument("--min-time", default="0.2", help="seconds of a repetition")
     parser.add_argument("--max-triangles", type=int, default=1000000)
     parser.add_argument("--budget", type=float, default=120.0, help="seconds of `rheo bench` a scene")

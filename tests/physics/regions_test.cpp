@@ -65,7 +65,7 @@ struct RegionBody {
   RegionBody(Scene s, Regions r, SimdLevel level, int threads)
       : scene(std::move(s)),
         regions(std::move(r)),
-        model(scene.mesh, scene.material),
+        model(scene.mesh, regions),
         schedule(scene, model),
         interval(schedule.interval(0)),
         form(std::make_shared<ElementForm>(scene.mesh, regions)),

@@ -111,49 +111,120 @@ DenseMatrices dense_matrices(const Mesh& mesh, const Material& material) {
   return m;
 }
 
-MatrixXd full_operator(const DenseMatrices& m, const Material& material, const MatrixXd& unscaled,
+std::vector<Material> materials_of(const Scene& scene) {
+  std::vector<Material> materials{scene.material};
+  for (const Region& region : scene.regions) materials.push_back(region.material);
+  return materials;
+}
+
+std::vector<DenseMatrices> matrices_by_region(const Scene& scene) {
+  std::vector<DenseMatrices> matrices;
+  const std::vector<Material> materials = materials_of(scene);
+  for (std::size_t r = 0; r < materials.size(); ++r) {
+    Mesh part = scene.mesh;
+    part.triangles.clear();
+    for (std::size_t e = 0; e < scene.mesh.triangles.size(); ++e) {
+      const std::size_t of =
+          scene.region_of_triangle.empty() ? 0 : static_cast<std::size_t>(scene.region_of_triangle[e]);
+      if (of == r) part.triangles.push_back(scene.mesh.triangles[e]);
+    }
+    matrices.push_back(dense_matrices(part, materials[r]));
+  }
+  return matrices;
+}
+
+namespace {
+
+MatrixXd sum_of_masses(const std::vector<DenseMatrices>& matrices) {
+  MatrixXd mass = matrices.front().mass;
+  for (std::size_t r = 1; r < matrices.size(); ++r) mass += matrices[r].mass;
+  return mass;
+}
+
+Eigen::Index parts_of(const std::vector<Material>& materials) {
+  Eigen::Index parts = 2;
+  for (const Material& m : materials) parts += 2 * static_cast<Eigen::Index>(m.branch_count());
+  return parts;
+}
+
+// By degree of freedom and material: the share of the area of the triangles around it.
+std::vector<VectorXd> area_shares(const Scene& scene) {
+  const Eigen::Index d = 2 * scene.mesh.node_count();
+  std::vector<VectorXd> shares(1 + scene.regions.size(), VectorXd::Zero(d));
+  for (std::size_t e = 0; e < scene.mesh.triangles.size(); ++e) {
+    const std::size_t of =
+        scene.region_of_triangle.empty() ? 0 : static_cast<std::size_t>(scene.region_of_triangle[e]);
+    for (const int node : scene.mesh.triangles[e])
+      shares[of].segment(2 * node, 2).array() += signed_area(scene.mesh, static_cast<int>(e));
+  }
+  VectorXd all = VectorXd::Zero(d);
+  for (const VectorXd& share : shares) all += share;
+  for (VectorXd& share : shares) share = share.cwiseQuotient(all).eval();
+  return shares;
+}
+
+}  // namespace
+
+MatrixXd full_operator(const DenseMatrices& m, const Material& material, const MatrixXd& constraints,
                        double omega) {
-  const Eigen::Index d = m.mass.rows();
+  return full_operator(std::vector<DenseMatrices>{m}, std::vector<Material>{material}, constraints, omega);
+}
+
+MatrixXd full_operator(const std::vector<DenseMatrices>& matrices, const std::vector<Material>& materials,
+                       const MatrixXd& unscaled, double omega) {
+  const MatrixXd mass = sum_of_masses(matrices);
+  const Eigen::Index d = mass.rows();
   const Eigen::Index c = unscaled.cols();
   // Of the masses' size, or a pivot of heavy or light bodies would pass for rounding.
-  const MatrixXd constraints = m.mass.maxCoeff() * unscaled;
+  const MatrixXd constraints = mass.maxCoeff() * unscaled;
   // v' and the multipliers from [M -A; -A^T 0] (v', L) = (-J w, A^T (2 omega v + omega^2 u)).
   MatrixXd kkt = MatrixXd::Zero(d + c, d + c);
-  kkt.topLeftCorner(d, d) = m.mass;
+  kkt.topLeftCorner(d, d) = mass;
   kkt.topRightCorner(d, c) = -constraints;
   kkt.bottomLeftCorner(c, d) = -constraints.transpose();
-  const Eigen::Index branches = static_cast<Eigen::Index>(material.branch_count());
-  const Eigen::Index size = (2 + 2 * branches) * d;
+  const Eigen::Index size = parts_of(materials) * d;
   MatrixXd right = MatrixXd::Zero(d + c, size);
-  for (Eigen::Index k = 0; k < branches; ++k) {
-    right.block(0, (2 + 2 * k) * d, d, d) = -m.j_lambda;
-    right.block(0, (3 + 2 * k) * d, d, d) = -m.j_mu;
+  Eigen::Index place = 2 * d;
+  for (std::size_t r = 0; r < materials.size(); ++r) {
+    const Material& material = materials[r];
+    const DenseMatrices& m = matrices[r];
+    for (std::size_t k = 0; k < material.branch_count(); ++k, place += 2 * d) {
+      right.block(0, place, d, d) = -m.j_lambda;
+      right.block(0, place + d, d, d) = -m.j_mu;
+    }
+    right.block(0, 0, d, d) -= material.elastic.lambda * m.j_lambda + material.elastic.mu * m.j_mu;
+    right.block(0, d, d, d) -= material.viscous.lambda * m.j_lambda + material.viscous.mu * m.j_mu;
   }
-  right.block(0, 0, d, d) = -material.elastic.lambda * m.j_lambda - material.elastic.mu * m.j_mu;
-  right.block(0, d, d, d) = -material.viscous.lambda * m.j_lambda - material.viscous.mu * m.j_mu;
   right.block(d, 0, c, d) = omega * omega * constraints.transpose();
   right.block(d, d, c, d) = 2 * omega * constraints.transpose();
   const MatrixXd solved = kkt.fullPivLu().solve(right);
   MatrixXd a = MatrixXd::Zero(size, size);
   a.block(0, d, d, d).setIdentity();
   a.block(d, 0, d, size) = solved.topRows(d);
-  for (Eigen::Index k = 0; k < branches; ++k) {
-    const MaxwellBranch b = material.branch(static_cast<std::size_t>(k));
-    const Eigen::Index l = (2 + 2 * k) * d, n = (3 + 2 * k) * d;
-    a.block(l, d, d, d) = b.lambda_ela * MatrixXd::Identity(d, d);
-    a.block(l, l, d, d) = -b.lambda_rate() * MatrixXd::Identity(d, d);
-    a.block(n, d, d, d) = b.mu_ela * MatrixXd::Identity(d, d);
-    a.block(n, n, d, d) = -b.mu_rate() * MatrixXd::Identity(d, d);
+  Eigen::Index l = 2 * d;
+  for (const Material& material : materials) {
+    for (std::size_t k = 0; k < material.branch_count(); ++k, l += 2 * d) {
+      const MaxwellBranch b = material.branch(k);
+      const Eigen::Index n = l + d;
+      a.block(l, d, d, d) = b.lambda_ela * MatrixXd::Identity(d, d);
+      a.block(l, l, d, d) = -b.lambda_rate() * MatrixXd::Identity(d, d);
+      a.block(n, d, d, d) = b.mu_ela * MatrixXd::Identity(d, d);
+      a.block(n, n, d, d) = -b.mu_rate() * MatrixXd::Identity(d, d);
+    }
   }
   return a;
 }
 
 ExactSolution::ExactSolution(const Scene& scene)
-    : scene_(scene), matrices_(dense_matrices(scene.mesh, scene.material)) {}
+    : scene_(scene),
+      materials_(materials_of(scene)),
+      matrices_(matrices_by_region(scene)),
+      mass_(sum_of_masses(matrices_)) {}
 
 std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) const {
   const Scene& s = scene_;
-  const Eigen::Index d = matrices_.mass.rows();
+  const Eigen::Index d = mass_.rows();
+  const std::vector<VectorXd> shares = area_shares(s);
   std::vector<double> breaks{0.0};
   const auto add = [&](double t) {
     if (t > 0 && std::isfinite(t)) breaks.push_back(t);
@@ -171,9 +242,7 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
   std::sort(breaks.begin(), breaks.end());
   breaks.erase(std::unique(breaks.begin(), breaks.end()), breaks.end());
 
-  const Material& material = s.material;
-  const Eigen::Index branches = static_cast<Eigen::Index>(material.branch_count());
-  const Eigen::Index size = (2 + 2 * branches) * d;
+  const Eigen::Index size = parts_of(materials_) * d;
   VectorXd y = VectorXd::Zero(size);
   VectorXd base = VectorXd::Zero(d);  // u at the beginning of the hold minus the key then
   std::vector<const void*> holder(d, nullptr);
@@ -232,7 +301,7 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
     if (begins && count > 0) {  // v+ = v + M^-1 A L, A^T v+ = b'
       VectorXd slope(count);
       for (Eigen::Index k = 0; k < count; ++k) slope[k] = rows[k].b[1];
-      const MatrixXd y_a = matrices_.mass.ldlt().solve(a);
+      const MatrixXd y_a = mass_.ldlt().solve(a);
       y.segment(d, d) +=
           y_a * (a.transpose() * y_a).fullPivLu().solve(slope - a.transpose() * y.segment(d, d));
     }
@@ -245,13 +314,17 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
       }
     }
     for (double t : times) {
-      if (t == t0)
-        result.push_back({t0, y.segment(0, d), y.segment(d, d), material.viscous.lambda * y.segment(d, d),
-                          material.viscous.mu * y.segment(d, d)});
       if (t != t0) continue;
-      for (Eigen::Index k = 0; k < branches; ++k) {
-        result.back().w_lambda += y.segment((2 + 2 * k) * d, d);
-        result.back().w_mu += y.segment((3 + 2 * k) * d, d);
+      result.push_back({t0, y.segment(0, d), y.segment(d, d), VectorXd::Zero(d), VectorXd::Zero(d)});
+      Eigen::Index place = 2 * d;
+      for (std::size_t r = 0; r < materials_.size(); ++r) {
+        const auto v = y.segment(d, d).cwiseProduct(shares[r]);
+        result.back().w_lambda += materials_[r].viscous.lambda * v;
+        result.back().w_mu += materials_[r].viscous.mu * v;
+        for (std::size_t k = 0; k < materials_[r].branch_count(); ++k, place += 2 * d) {
+          result.back().w_lambda += y.segment(place, d).cwiseProduct(shares[r]);
+          result.back().w_mu += y.segment(place + d, d).cwiseProduct(shares[r]);
+        }
       }
     }
     if (last) return result;
@@ -261,11 +334,11 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
     const double length = t1 - t0;
     constexpr Eigen::Index extra = 6;
     MatrixXd full = MatrixXd::Zero(size + extra, size + extra);
-    full.topLeftCorner(size, size) = full_operator(matrices_, s.material, a, s.time.baumgarte);
+    full.topLeftCorner(size, size) = full_operator(matrices_, materials_, a, s.time.baumgarte);
     for (Eigen::Index k = 1; k < extra; ++k) full(size + k, size + k - 1) = 1.0 / length;
     MatrixXd kkt = MatrixXd::Zero(d + count, d + count);
-    kkt.topLeftCorner(d, d) = matrices_.mass;
-    const double weight = matrices_.mass.maxCoeff();  // as in full_operator
+    kkt.topLeftCorner(d, d) = mass_;
+    const double weight = mass_.maxCoeff();  // as in full_operator
     kkt.topRightCorner(d, count) = -weight * a;
     kkt.bottomLeftCorner(count, d) = -weight * a.transpose();
     const Eigen::FullPivLU<MatrixXd> lu(kkt);
@@ -292,7 +365,7 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
         VectorXd g(d);
         for (Eigen::Index j = 0; j < d / 2; ++j)
           g.segment(2 * j, 2) << s.body_acceleration.x, s.body_acceleration.y;
-        right.head(d) += matrices_.mass * g;
+        right.head(d) += mass_ * g;
       }
       const double omega = s.time.baumgarte;
       for (Eigen::Index j = 0; j < count; ++j) {
@@ -308,9 +381,12 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
     z[size] = 1.0;
     // Squaring loses digits where entries of very different sizes meet: numbers of one size instead, v over a
     // frequency, w over a modulus.
-    double modulus = std::max(material.elastic.lambda, material.elastic.mu);
-    for (std::size_t k = 0; k < material.branch_count(); ++k)
-      modulus = std::max({modulus, material.branch(k).lambda_ela, material.branch(k).mu_ela});
+    double modulus = 0.0;
+    for (const Material& material : materials_) {
+      modulus = std::max({modulus, material.elastic.lambda, material.elastic.mu});
+      for (std::size_t k = 0; k < material.branch_count(); ++k)
+        modulus = std::max({modulus, material.branch(k).lambda_ela, material.branch(k).mu_ela});
+    }
     if (modulus == 0.0) modulus = 1.0;
     const double frequency = std::max(
         1.0 / length, std::sqrt(modulus * full.block(d, 2 * d, d, size - 2 * d).cwiseAbs().maxCoeff()));

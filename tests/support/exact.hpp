@@ -15,7 +15,8 @@ namespace rheo::test {
 
 struct ExactState {
   double t = 0.0;
-  Eigen::VectorXd u, v, w_lambda, w_mu;  // 2n each; w: of all branches and the viscous part
+  Eigen::VectorXd u, v, w_lambda, w_mu;  // 2n each; w: of all branches and the viscous part, the mean over
+                                         // a node's materials by the areas of their triangles
 };
 
 // Dense J_lambda, J_mu, M (2n x 2n) of a mesh and material.
@@ -29,6 +30,15 @@ DenseMatrices dense_matrices(const Mesh& mesh, const Material& material);
 Eigen::MatrixXd full_operator(const DenseMatrices& matrices, const Material& material,
                               const Eigen::MatrixXd& constraints, double omega);
 
+// The materials of a scene: its own, then those of its regions.
+std::vector<Material> materials_of(const Scene& scene);
+// Of the triangles of each material alone, on all nodes.
+std::vector<DenseMatrices> matrices_by_region(const Scene& scene);
+// Several materials: on (u, v, and region by region w_lambda and w_mu of each branch).
+Eigen::MatrixXd full_operator(const std::vector<DenseMatrices>& matrices,
+                              const std::vector<Material>& materials, const Eigen::MatrixXd& constraints,
+                              double omega);
+
 class ExactSolution {
  public:
   explicit ExactSolution(const Scene& scene);
@@ -38,7 +48,9 @@ class ExactSolution {
 
  private:
   Scene scene_;
-  DenseMatrices matrices_;
+  std::vector<Material> materials_;
+  std::vector<DenseMatrices> matrices_;  // by material
+  Eigen::MatrixXd mass_;
 };
 
 // design: the largest, over the times and over u, v, w_lambda, w_mu, of |difference| / (largest |block| over

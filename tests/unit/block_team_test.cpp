@@ -5,7 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <mutex>
+#include <set>
+#include <thread>
 #include <vector>
+
+#include "kernels/flush_denormals.hpp"
 
 namespace rheo::test {
 namespace {
@@ -41,6 +46,30 @@ TEST(BlockTeam, VisitsEveryBlockOnceASweepAfterAllThatItReads) {
     }
   }
 }
+
+#if defined(__x86_64__) && defined(__GNUC__)
+TEST(BlockTeam, TakesDenormalsForZeroOnEveryThreadAndNowhereElse) {
+  ASSERT_FALSE(FlushDenormals::is_on());
+  BlockTeam team(meshes[0], 2);
+  std::mutex mutex;
+  std::set<std::thread::id> threads;
+  std::atomic<int> kept = 0;
+  const auto look = [&](std::size_t, std::size_t) {
+    kept += !FlushDenormals::is_on();
+    const std::lock_guard lock(mutex);
+    threads.insert(std::this_thread::get_id());
+  };
+  {
+    const FlushDenormals flush;  // as Stepping::advance: a team that works alone is on the caller's thread
+    EXPECT_TRUE(FlushDenormals::is_on());
+    // Trials alone come first, and other programs may make it go on alone.
+    for (int k = 0; k < 2000 && threads.size() < 2; ++k) team.chain(4, look);
+  }
+  EXPECT_EQ(threads.size(), 2u);
+  EXPECT_EQ(kept, 0);
+  EXPECT_FALSE(FlushDenormals::is_on());
+}
+#endif
 
 TEST(BlockTeam, HasNoMoreThreadsThanBlocksKeepBusy) {
   EXPECT_EQ(BlockTeam(std::vector<std::int32_t>{7}, 8).threads(), 1);

@@ -235,8 +235,8 @@ TEST(ElementForce, IsTheStiffnessOfTheAssembledForm) {
   const Model elements(scene.mesh, scene.material, Assembly::elements);
   const Vector x = Vector::Random(2 * scene.mesh.node_count());
   const double lambda = scene.material.lambda_ela, mu = scene.material.mu_ela;
-  const Vector expected = matrices.stiffness(lambda, mu, x);
-  EXPECT_LT((elements.stiffness(lambda, mu, x) - expected).norm(), 1e-13 * expected.norm());
+  const Vector expected = matrices.stiffness({Moduli{lambda, mu}}, x);
+  EXPECT_LT((elements.stiffness({Moduli{lambda, mu}}, x) - expected).norm(), 1e-13 * expected.norm());
 }
 
 TEST(ElementKernel, IsRefusedWhereTheSceneDoesNotAllowIt) {

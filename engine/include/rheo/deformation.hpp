@@ -7,6 +7,7 @@
 // Shapes   u, w: n x 2; strain, stress: m x 3 (xx, yy, xy)
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -17,6 +18,9 @@ namespace rheo {
 void strain(const Mesh& mesh, std::span<const double> u, std::span<double> out);
 void stress(const Mesh& mesh, std::span<const double> w_lambda, std::span<const double> w_mu,
             std::span<double> out);
+// Of some triangles; the others' stay as they are.
+void stress(const Mesh& mesh, std::span<const std::int32_t> triangles, std::span<const double> w_lambda,
+            std::span<const double> w_mu, std::span<double> out);
 
 // The worst triangle of a state in each of the three ways in which a linear model stops meaning anything.
 struct LinearityReport {

@@ -1,6 +1,6 @@
 // The exact solution of a small scene: the exponential of its full dense operator, from event to event.
 //
-//   y = (u, v, w_lambda and w_mu of each branch),  y' = A y + g(t),  g a polynomial between events
+//   y = (u, v, w_lambda and w_mu of each branch and region),  y' = A y + g(t),  g a polynomial between events
 //   y(t + d) = exp(d [A G; 0 N]) (y, 1, s, s^2/2, ...)
 //   v'     = P (f - J_lambda p_lambda - J_mu p_mu) + G target          p: simulation.hpp
 //   G      = M^-1 C (C^T M^-1 C)^-1,  P = M^-1 - G C^T M^-1

@@ -65,6 +65,9 @@ struct HandReading {
 class Live {
  public:
   Live(Scene scene, LiveSettings settings);
+  // Goes on from the state of another one with the same mesh and rate, at a tick's end. Hands hold and push
+  // nothing yet, and a session says nothing of what was before.
+  Live(Scene scene, LiveSettings settings, const SavedState& saved);
   Live(Live&&) noexcept;
   Live& operator=(Live&&) noexcept;
   ~Live();

@@ -72,11 +72,20 @@ struct Counters {
   std::int64_t projections = 0;           // velocity jumps where constraints begin
   std::int64_t energy_samples = 0;        // looks at the energies: each costs about one evaluation
   std::int64_t steps_at_rest = 0;         // not taken, because nothing moved and nothing acted
+  std::int64_t flushed_steps = 0;         // with denormal numbers taken for zero: all, on x86-64
   std::int64_t factors = 0;               // implicit: made, for a step size and set of constraints each
   std::int64_t shifted_solves = 0;        // implicit: sparse solves with them
 };
 
+// All of the state at a time: what another simulation of the same mesh goes on from.
+struct SavedState {
+  double t = 0.0;
+  std::vector<double> u, v;                         // 2n
+  std::vector<std::vector<double>> w_lambda, w_mu;  // by branch, 2n each
+};
+
 // Ways to the same rheological force.
+
 enum class Kernel {
   automatic,  // edge where the scene allows it, else csr
   csr,        // assembled matrices: every scene; the reference
@@ -132,10 +141,17 @@ class Simulation {
   // After a divergence the state is the one in which it was noticed, and further calls return it again.
   std::optional<Divergence> advance(double t);
 
+  // The state now; and going on from one that a simulation of the same mesh had, with this one's parameters.
+  // Branches that are not in both begin at zero; dissipated and work count from there. What the scene holds
+  // or moves is held where it is then.
+  SavedState save() const;
+  void resume(const SavedState& saved);
+
   std::span<const double> u() const;
   std::span<const double> v() const;
   // All residual forces but the elastic part's: sum over the branches of w + viscous v. Valid until the next
-  // call or step.
+  // call or step. Where materials meet, a node has residual forces of its own for each of them; here and
+  // below it is given their mean, weighted by the area of each material's triangles at the node.
   std::span<const double> w_lambda() const;
   std::span<const double> w_mu() const;
   // Of one branch (Material::branch); zeros where it is off.
@@ -144,6 +160,8 @@ class Simulation {
   // p, with the elastic part: what the stress comes from (deformation.hpp). Without one the same as w.
   std::span<const double> pull_lambda() const;
   std::span<const double> pull_mu() const;
+  // Of every triangle, from its own material's p: m x 3 (xx, yy, xy) [Pa].
+  void stress(std::span<double> out) const;
 
   Energies energies() const;
   // Force of the constraints on the nodes, now (just after an event at this time).

@@ -15,6 +15,10 @@
 // so the step that keeps all such s inside the integrator's stability region is stable for the scene;
 // relaxation rates and Baumgarte's double pole -omega belong to the spectrum too.
 //
+// Several materials in one mesh: each rate k has a quotient c_k >= 0 of its own, and the viscous part d,
+//
+//   s + sum over k of c_k / (s + r_k) + d = 0,   sum c_k <= omega_max^2,   d <= viscous_max
+//
 // Source   design: Lanczos in the inner product of M for omega_max^2 = largest eigenvalue of
 //          M^-1 (lambda_ela J_lambda + mu_ela J_mu) (of all springs, viscous_max likewise) on what the
 //          constraints leave free, its residual added, capped by the largest element eigenvalue (Irons and
@@ -39,14 +43,17 @@ struct Spectrum {
   bool mu_on = false;
   double baumgarte = 0.0;  // omega; 0 where no constraint needs it
   int lanczos_steps = 0;
+  // More than one: any share of the springs may be that of any rate in a mode; the moduli below are then the
+  // largest of the materials.
+  bool several_materials = false;
   // Beyond one branch, else empty and 0: all springs by their rate, and the viscous part with an upper bound
   // of the largest eigenvalue of M^-1 (viscous_lambda J_lambda + viscous_mu J_mu) [1/s].
   std::vector<Relaxation> relaxations;
   Moduli viscous;
   double viscous_max = 0.0;
   // Of the full operator, under every set of constraints, where the scene is small: for Euler, whose limit
-  // hangs on the damping of single modes, where not everything relaxes at one rate. Else empty, and the limit
-  // a safe bound.
+  // hangs on the damping of single modes, where not everything relaxes at one rate; for RK4 with a viscous
+  // part or several materials. Else empty, and the limit a safe bound.
   std::vector<std::complex<double>> eigenvalues;
 
   // No eigenvalue's real part is below -largest_rate(): of the branches and the viscous part [1/s].
@@ -59,8 +66,8 @@ struct Spectrum {
 // damping in some mode), infinite where every step is (exponential, implicit: always).
 double stable_step(const Spectrum& spectrum, IntegratorKind integrator);
 
-// Whether that is only a safe bound, the true limit possibly larger: Euler, and RK4 with a viscous part, on
-// scenes too large for their eigenvalues.
+// Whether that is only a safe bound, the true limit possibly larger: Euler, and RK4 with a viscous part or
+// several materials, on scenes too large for their eigenvalues.
 bool stable_step_is_bound(const Spectrum& spectrum, IntegratorKind integrator);
 
 // The same for one eigenvalue s (Re s <= 0), used above and by the tests on exact spectra.

@@ -29,7 +29,7 @@ EdgeBody::EdgeBody(const Model& model, const EdgeForce& force, int threads)
       mass_(entry_masses(model, form_)),
       terms_(mass_, form_.kernel_node, block_ends(form_.blocks)) {
   const auto n = static_cast<std::size_t>(form_.nodes);
-  const Material& m = model.material;
+  const Material& m = model.material();
   assert(form_.moduli.has_value() == combined(m).has_value());
   elastic_ = form_.moduli && m.lambda_rate() == 0.0 && m.mu_rate() == 0.0;
   state_.assign((row() + (elastic_ ? 2 : 4)) * n, 0.0);
@@ -52,7 +52,7 @@ EdgeBody::EdgeBody(const Model& model, const EdgeForce& force, int threads)
 }
 
 double EdgeBody::smallest_share(const Model& model) {
-  const Material& m = model.material;
+  const Material& m = model.material();
   if (m.lambda_ela == 0.0 || m.mu_ela == 0.0) return 1.0;
   const auto reach = [&](double ela, double rate) { return ela / (rate + model.element_omega); };
   const double lambda = reach(m.lambda_ela, m.lambda_rate());
@@ -241,7 +241,7 @@ NodeForce EdgeBody::force_at(std::size_t node) const {
 }
 
 EnergySample EdgeBody::sample(double t) {
-  const Material& material = model_.material;
+  const Material& material = model_.material();
   const double* xp = state_.data() + p();
   const double* xv = state_.data() + v();
   team_.chain(1, [&](std::size_t, std::size_t block) { sums_[block] = sums_of(form_.blocks[block]); });

@@ -43,6 +43,16 @@ SweepMaterial sweep_material(const Material& m) {
 
 }  // namespace
 
+std::vector<std::int32_t> numbers_in_patches(const Model& model, const ElementForm& form) {
+  std::vector<std::int32_t> numbers;
+  numbers.reserve(form.slot_node.size());
+  for (std::size_t slot = 0; slot < form.slot_node.size(); ++slot) {
+    const Patch& patch = model.patches[static_cast<std::size_t>(form.slot_region[slot])];
+    numbers.push_back(patch.number_of(form.mesh_node[static_cast<std::size_t>(form.slot_node[slot])]));
+  }
+  return numbers;
+}
+
 std::vector<ElementForm::Block> element_blocks(const ElementForm& form, int threads) {
   const bool shared = paying_threads(form.nodes, threads) > 1;
   return form.blocks(std::max(smallest_block, shared ? shared_block * form.bandwidth : 0));
@@ -64,38 +74,41 @@ ElementBody::ElementBody(const Model& model, const ElementForce& force, int thre
   parts_ = {StatePart{4 * s, smallest_share(form_.materials, model.element_omega)}, StatePart{2 * n, 1.0},
             StatePart{2 * n, 1.0}};
   for (const Material& m : form_.materials) materials_.push_back(sweep_material(m));
+  number_in_patch_ = numbers_in_patches(model, form_);
+  branches_.resize(form_.materials.size());
+  for (const BranchPart& part : model.layout.branches)
+    (part.modulus == Modulus::lambda ? branches_[part.region].lambda : branches_[part.region].mu) = &part;
   forces_.assign(team_.threads() > 1 ? 3 : 1, std::vector<double>(2 * s, 0.0));
   sums_.resize(stretches_.size() * form_.materials.size());
 }
 
-void ElementBody::load(std::span<const double> y) {
-  assert(form_.slots == form_.nodes);
+// visit(kernel's number, mesh's number) for all of the state.
+template <class Visit>
+void ElementBody::for_each_number(const Visit& visit) const {
   const Layout& layout = model_.layout;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(form_.nodes); ++k) {
-    const auto node = static_cast<std::size_t>(form_.mesh_node[k]);
+  for (std::size_t slot = 0; slot < number_in_patch_.size(); ++slot) {
+    const auto& [lambda, mu] = branches_[static_cast<std::size_t>(form_.slot_region[slot])];
+    const std::size_t i = 2 * static_cast<std::size_t>(number_in_patch_[slot]);
     for (std::size_t axis = 0; axis < 2; ++axis) {
-      const std::size_t i = 2 * node + axis;
-      state_[p() + 4 * k + axis] = layout.lambda ? y[layout.w_lambda() + i] : 0.0;
-      state_[p() + 4 * k + 2 + axis] = layout.mu ? y[layout.w_mu() + i] : 0.0;
-      state_[v() + 2 * k + axis] = y[layout.v() + i];
-      state_[u() + 2 * k + axis] = y[layout.u() + i];
+      if (lambda != nullptr) visit(p() + 4 * slot + axis, lambda->offset + i + axis);
+      if (mu != nullptr) visit(p() + 4 * slot + 2 + axis, mu->offset + i + axis);
+    }
+  }
+  for (std::size_t k = 0; k < static_cast<std::size_t>(form_.nodes); ++k) {
+    const std::size_t i = 2 * static_cast<std::size_t>(form_.mesh_node[k]);
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      visit(v() + 2 * k + axis, layout.v() + i + axis);
+      visit(u() + 2 * k + axis, layout.u() + i + axis);
     }
   }
 }
 
+void ElementBody::load(std::span<const double> y) {
+  for_each_number([&](std::size_t kernel, std::size_t mesh) { state_[kernel] = y[mesh]; });
+}
+
 void ElementBody::store(std::span<double> y) const {
-  assert(form_.slots == form_.nodes);
-  const Layout& layout = model_.layout;
-  for (std::size_t k = 0; k < static_cast<std::size_t>(form_.nodes); ++k) {
-    const auto node = static_cast<std::size_t>(form_.mesh_node[k]);
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const std::size_t i = 2 * node + axis;
-      if (layout.lambda) y[layout.w_lambda() + i] = state_[p() + 4 * k + axis];
-      if (layout.mu) y[layout.w_mu() + i] = state_[p() + 4 * k + 2 + axis];
-      y[layout.v() + i] = state_[v() + 2 * k + axis];
-      y[layout.u() + i] = state_[u() + 2 * k + axis];
-    }
-  }
+  for_each_number([&](std::size_t kernel, std::size_t mesh) { y[mesh] = state_[kernel]; });
 }
 
 void ElementBody::enter(const Interval& interval, const Vector& base) {
@@ -115,7 +128,7 @@ void ElementBody::fma(double h, std::span<const double> x, std::span<const doubl
 
 void ElementBody::chain(std::span<const Sweep> sweeps) {
   counters_.force_evaluations += static_cast<std::int64_t>(sweeps.size());
-  counters_.branch_updates += 2 * static_cast<std::int64_t>(sweeps.size());
+  counters_.branch_updates += 2 * static_cast<std::int64_t>(sweeps.size() * materials_.size());
   for (const Sweep& sweep : sweeps) {
     if (sweep.result == Result::step) ++counters_.displacement_updates;
   }

@@ -8,8 +8,7 @@
 // Threads  blocks of nodes by several threads (block_team.hpp): the same bits for any number. One thread
 //          passes a block's forces on to the next one; several compute those of the triangles between two
 //          blocks twice instead.
-// Not here consistent mass, general constraints: AssembledBody; load() and store() of several regions: the
-//          mesh's order has one residual force a node for now, state() and ElementForm's slots have them all
+// Not here consistent mass, general constraints: AssembledBody
 #pragma once
 
 #include <array>
@@ -24,6 +23,9 @@ namespace rheo {
 
 // The blocks that sweeps visit; threads: as asked for (block_team.hpp).
 std::vector<ElementForm::Block> element_blocks(const ElementForm& form, int threads);
+
+// By slot: its node's number in its region's patch.
+std::vector<std::int32_t> numbers_in_patches(const Model& model, const ElementForm& form);
 
 class ElementBody final : public Body {
  public:
@@ -51,6 +53,9 @@ class ElementBody final : public Body {
   std::size_t u() const { return v() + 2 * static_cast<std::size_t>(form_.nodes); }
 
  private:
+  template <class Visit>
+  void for_each_number(const Visit& visit) const;
+
   // One sweep over one block.
   void sweep_block(const Sweep& sweep, std::size_t block);
   // The nodes' part of it, for one node with several slots.
@@ -70,7 +75,13 @@ class ElementBody final : public Body {
   BlockTeam team_;
   std::array<StatePart, 3> parts_;
   std::vector<SweepMaterial> materials_;  // by region
-  std::vector<double> mass_;              // n x 2
+  struct Branch {
+    const BranchPart* lambda = nullptr;
+    const BranchPart* mu = nullptr;
+  };
+  std::vector<Branch> branches_;               // by region: where its numbers lie in the mesh's state
+  std::vector<std::int32_t> number_in_patch_;  // by slot
+  std::vector<double> mass_;                   // n x 2
   NodalTerms terms_;
   // F by slot while a sweep adds it up, zero otherwise. Several threads: one for each block number modulo 3,
   // because a block's triangles reach into the blocks beside it.

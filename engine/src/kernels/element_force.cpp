@@ -16,7 +16,7 @@ void ElementForce::apply(const double* p, double* force) const {
   sweep_.add_forces(*form_, p, force, 0, static_cast<std::int64_t>(form_->offset.size()));
 }
 
-void ElementForce::stiffness(double lambda, double mu, std::span<const double> x,
+void ElementForce::stiffness(std::span<const Moduli> moduli, std::span<const double> x,
                              std::span<double> out) const {
   const auto s = static_cast<std::size_t>(form_->slots);
   const auto of_slot = [&](std::size_t k) {
@@ -24,6 +24,7 @@ void ElementForce::stiffness(double lambda, double mu, std::span<const double> x
   };
   for (std::size_t k = 0; k < s; ++k) {
     const double* u = x.data() + of_slot(k);
+    const auto [lambda, mu] = moduli[static_cast<std::size_t>(form_->slot_region[k])];
     for (std::size_t axis = 0; axis < 2; ++axis) {
       packed_[4 * k + axis] = lambda * u[axis];
       packed_[4 * k + 2 + axis] = mu * u[axis];

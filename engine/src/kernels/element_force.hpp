@@ -23,8 +23,8 @@ class ElementForce {
   // By slot: the sum over a node's slots is the force on it.
   void apply(const double* p, double* force) const;
 
-  // (lambda J_lambda + mu J_mu) x, J over the whole mesh.
-  void stiffness(double lambda, double mu, std::span<const double> x, std::span<double> out) const;
+  // sum over the regions of (lambda J_lambda + mu J_mu) x; moduli by region.
+  void stiffness(std::span<const Moduli> moduli, std::span<const double> x, std::span<double> out) const;
 
  private:
   std::shared_ptr<const ElementForm> form_;

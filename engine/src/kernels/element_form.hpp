@@ -29,16 +29,10 @@
 #include <vector>
 
 #include "aligned_vector.hpp"
-#include "rheo/material.hpp"
+#include "regions.hpp"
 #include "rheo/mesh.hpp"
 
 namespace rheo {
-
-// Which material each triangle is of.
-struct Regions {
-  std::vector<Material> materials;
-  std::vector<std::int32_t> of_triangle;  // by triangle of the mesh, an index into materials; empty: all 0
-};
 
 struct ElementForm {
   ElementForm(const Mesh& mesh, const Regions& regions);

@@ -22,6 +22,15 @@ class FlushDenormals {
 #else
   FlushDenormals() = default;
 #endif
+  // Whether this thread does now, for results and arguments.
+  static bool is_on() {
+#if defined(__x86_64__) && defined(__GNUC__)
+    constexpr unsigned both = flush_to_zero | denormals_are_zero;
+    return (_mm_getcsr() & both) == both;
+#else
+    return false;
+#endif
+  }
   FlushDenormals(const FlushDenormals&) = delete;
   FlushDenormals& operator=(const FlushDenormals&) = delete;
 

@@ -1,8 +1,12 @@
 #include "kernels/parallel_body.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "kernels/node_blocks.hpp"
 
 namespace rheo {
 namespace {
@@ -19,15 +23,25 @@ std::vector<double> entry_masses(const Model& model, std::span<const std::int32_
 
 ParallelBody::ParallelBody(const Model& model, std::span<const std::int32_t> mesh_node,
                            std::span<const std::int32_t> kernel_node, std::vector<std::int32_t> ends,
-                           int threads)
+                           int threads, std::vector<SlotRun> runs)
     : Body(model, 0.0),
       mesh_node_(mesh_node),
       kernel_node_(kernel_node),
       ends_(std::move(ends)),
       team_(ends_, threads),
       rows_(branch_rows(best_simd_level())),
+      runs_(std::move(runs)),
+      part_(model.patches.size()),
+      forms_(model.patches.size()),
       mass_(entry_masses(model, mesh_node)),
       terms_(mass_, kernel_node, ends_) {
+  find_block_begins(
+      ends_, runs_, [](const SlotRun& run) { return run.node; }, run_begin_);
+  for (const SlotRun& run : runs_) {
+    assert(run.slot == number_in_patch_.size());
+    for (std::size_t i = 0; i < static_cast<std::size_t>(run.count); ++i)
+      number_in_patch_.push_back(model.patches[run.region].number_of(mesh_node[run.node + i]));
+  }
   make_branches();
   make_parts();
   state_.assign(w(branches_.size()), 0.0);
@@ -36,98 +50,113 @@ ParallelBody::ParallelBody(const Model& model, std::span<const std::int32_t> mes
 }
 
 void ParallelBody::make_branches() {
-  const Material& m = model_.material;
-  for (std::size_t k = 0; k < m.branch_count(); ++k) {
-    Branch branch;
+  for (std::size_t k = 0; k < model_.branch_count(); ++k) {
+    Branch branch(model_.patches.size());
+    bool on = false;
     for (const BranchPart& part : model_.layout.branches) {
       if (part.number != k) continue;
+      on = true;
+      RegionBranch& own = branch[part.region];
       const std::size_t first = part.modulus == Modulus::lambda ? 0 : 2;
-      (first == 0 ? branch.lambda : branch.mu) = &part;
+      (first == 0 ? own.lambda : own.mu) = &part;
       for (std::size_t c = first; c < first + 2; ++c) {
-        branch.material.growth[c] = part.ela;
-        branch.material.decay[c] = part.rate;
+        own.material.growth[c] = part.ela;
+        own.material.decay[c] = part.rate;
       }
     }
-    if (branch.lambda != nullptr || branch.mu != nullptr) branches_.push_back(branch);
+    if (on) branches_.push_back(std::move(branch));
   }
-  for (std::size_t c = 0; c < 4; ++c) {
-    part_.elastic[c] = c < 2 ? m.elastic.lambda : m.elastic.mu;
-    part_.viscous[c] = c < 2 ? m.viscous.lambda : m.viscous.mu;
-    elastic_ = elastic_ || part_.elastic[c] > 0.0;
-    viscous_ = viscous_ || part_.viscous[c] > 0.0;
+  for (std::size_t r = 0; r < part_.size(); ++r) {
+    const Material& m = model_.patches[r].material;
+    for (std::size_t c = 0; c < 4; ++c) {
+      part_[r].elastic[c] = c < 2 ? m.elastic.lambda : m.elastic.mu;
+      part_[r].viscous[c] = c < 2 ? m.viscous.lambda : m.viscous.mu;
+    }
   }
+  elastic_ = model_.has_elastic_part();
+  viscous_ = model_.has_viscous_part();
 }
 
-// A branch's two residual forces share a part, and its bound must hold for the one that is smaller at the
+// All residual forces of a branch share a part, and its bound must hold for the one that is smallest at the
 // largest frequency. p follows from the others.
 void ParallelBody::make_parts() {
   constexpr std::size_t most = 16;  // LinearOperator::parts
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  const std::size_t n = nodes();
-  parts_ = {StatePart{4 * n, 0.0}, StatePart{2 * n, 1.0}, StatePart{2 * n, 1.0}};
+  const std::size_t n = nodes(), s = slots();
+  parts_ = {StatePart{4 * s, 0.0}, StatePart{2 * n, 1.0}, StatePart{2 * n, 1.0}};
   const bool apart = parts_.size() + branches_.size() <= most;
   double smallest = infinite, largest = 0.0;
   for (const Branch& branch : branches_) {
-    for (const BranchPart* part : {branch.lambda, branch.mu}) {
-      if (part == nullptr) continue;
-      const double reach = part->ela / (part->rate + model_.element_omega);
-      smallest = std::min(smallest, reach);
-      largest = std::max(largest, reach);
+    for (const RegionBranch& own : branch) {
+      for (const BranchPart* part : {own.lambda, own.mu}) {
+        if (part == nullptr) continue;
+        const double reach = part->ela / (part->rate + model_.element_omega);
+        smallest = std::min(smallest, reach);
+        largest = std::max(largest, reach);
+      }
     }
     if (!apart) continue;
-    parts_.push_back({4 * n, smallest / largest});
+    parts_.push_back({4 * s, smallest / largest});
     smallest = infinite, largest = 0.0;
   }
-  if (!apart) parts_.push_back({4 * n * branches_.size(), smallest / largest});
+  if (!apart) parts_.push_back({4 * s * branches_.size(), smallest / largest});
+}
+
+// visit(kernel's number, mesh's number) for all of the state but p.
+template <class Visit>
+void ParallelBody::for_each_number(const Visit& visit) const {
+  const Layout& layout = model_.layout;
+  for (const SlotRun& run : runs_) {
+    for (std::size_t k = run.slot; k < run.slot + static_cast<std::size_t>(run.count); ++k) {
+      const std::size_t i = 2 * static_cast<std::size_t>(number_in_patch_[k]);
+      for (std::size_t b = 0; b < branches_.size(); ++b) {
+        const RegionBranch& own = branches_[b][run.region];
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+          if (own.lambda != nullptr) visit(w(b) + 4 * k + axis, own.lambda->offset + i + axis);
+          if (own.mu != nullptr) visit(w(b) + 4 * k + 2 + axis, own.mu->offset + i + axis);
+        }
+      }
+    }
+  }
+  for (std::size_t k = 0; k < nodes(); ++k) {
+    const std::size_t i = 2 * static_cast<std::size_t>(mesh_node_[k]);
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      visit(v() + 2 * k + axis, layout.v() + i + axis);
+      visit(u() + 2 * k + axis, layout.u() + i + axis);
+    }
+  }
 }
 
 void ParallelBody::load(std::span<const double> y) {
-  const Layout& layout = model_.layout;
-  for (std::size_t k = 0; k < nodes(); ++k) {
-    const auto node = static_cast<std::size_t>(mesh_node_[k]);
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const std::size_t i = 2 * node + axis;
-      for (std::size_t b = 0; b < branches_.size(); ++b) {
-        double* row = state_.data() + w(b) + 4 * k;
-        if (branches_[b].lambda != nullptr) row[axis] = y[branches_[b].lambda->offset + i];
-        if (branches_[b].mu != nullptr) row[2 + axis] = y[branches_[b].mu->offset + i];
-      }
-      state_[v() + 2 * k + axis] = y[layout.v() + i];
-      state_[u() + 2 * k + axis] = y[layout.u() + i];
-    }
-  }
+  for_each_number([&](std::size_t kernel, std::size_t mesh) { state_[kernel] = y[mesh]; });
   renew(state_);
 }
 
 void ParallelBody::store(std::span<double> y) const {
-  const Layout& layout = model_.layout;
-  for (std::size_t k = 0; k < nodes(); ++k) {
-    const auto node = static_cast<std::size_t>(mesh_node_[k]);
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      const std::size_t i = 2 * node + axis;
-      for (std::size_t b = 0; b < branches_.size(); ++b) {
-        const double* row = state_.data() + w(b) + 4 * k;
-        if (branches_[b].lambda != nullptr) y[branches_[b].lambda->offset + i] = row[axis];
-        if (branches_[b].mu != nullptr) y[branches_[b].mu->offset + i] = row[2 + axis];
-      }
-      y[layout.v() + i] = state_[v() + 2 * k + axis];
-      y[layout.u() + i] = state_[u() + 2 * k + axis];
-    }
+  for_each_number([&](std::size_t kernel, std::size_t mesh) { y[mesh] = state_[kernel]; });
+}
+
+void ParallelBody::renew_p(std::span<double> y, const SlotRun& run) const {
+  double* p_rows = y.data() + p() + 4 * run.slot;
+  rows_.begin(part_[run.region], y.data() + u() + 2 * run.node, y.data() + v() + 2 * run.node, p_rows,
+              run.count);
+  for (std::size_t b = 0; b < branches_.size(); ++b) {
+    const double* w_rows = y.data() + w(b) + 4 * run.slot;
+    for (std::size_t i = 0; i < 4 * static_cast<std::size_t>(run.count); ++i) p_rows[i] += w_rows[i];
   }
 }
 
-void ParallelBody::renew_p(std::span<double> y, std::size_t first, std::size_t count) const {
-  double* p_rows = y.data() + p() + 4 * first;
-  rows_.begin(part_, y.data() + u() + 2 * first, y.data() + v() + 2 * first, p_rows,
-              static_cast<std::int64_t>(count));
-  for (std::size_t b = 0; b < branches_.size(); ++b) {
-    const double* w_rows = y.data() + w(b) + 4 * first;
-    for (std::size_t i = 0; i < 4 * count; ++i) p_rows[i] += w_rows[i];
-  }
+void ParallelBody::renew_p_of_node(std::span<double> y, std::size_t node) const {
+  // The first run that reaches beyond the node; a node of several slots has runs of its own.
+  auto run = std::partition_point(runs_.begin(), runs_.end(), [&](const SlotRun& r) {
+    return r.node + static_cast<std::size_t>(r.count) <= node;
+  });
+  for (; run != runs_.end() && run->node <= node; ++run)
+    renew_p(y, {run->slot + (node - run->node), node, 1, run->region});
 }
 
 void ParallelBody::renew(std::span<double> y) {
-  renew_p(y, 0, nodes());
+  for (const SlotRun& run : runs_) renew_p(y, run);
 }
 
 void ParallelBody::enter(const Interval& interval, const Vector& base) {
@@ -140,7 +169,7 @@ void ParallelBody::impose_prescribed(double t) {
   terms_.impose(*this, t, state_.data() + u(), state_.data() + v());
   if (imposed_ && !interval_->moving) return;
   for (const HeldDof& h : interval_->eliminated)
-    renew_p(state_, static_cast<std::size_t>(kernel_node_[static_cast<std::size_t>(h.dof / 2)]), 1);
+    renew_p_of_node(state_, static_cast<std::size_t>(kernel_node_[static_cast<std::size_t>(h.dof / 2)]));
   imposed_ = true;
 }
 
@@ -154,15 +183,17 @@ void ParallelBody::sweep_block(const Sweep& sweep, std::size_t block) {
   sweep_force(arrays, h, block);
   terms_.add(*this, h, sweep.forcing, out + v(), block);
 
-  const auto first = static_cast<std::size_t>(block == 0 ? 0 : ends_[block - 1]);
-  const std::int64_t count = ends_[block] - static_cast<std::int64_t>(first);
-  double* out_p = out + p() + 4 * first;
   // (Where nothing is elastic u counts for nothing, but must be numbers.)
-  const double* u_now = (moves_u ? out : base) + u() + 2 * first;
-  rows_.begin(part_, u_now, out + v() + 2 * first, out_p, count);
-  for (std::size_t k = 0; k < branches_.size(); ++k) {
-    const std::size_t at = w(k) + 4 * first;
-    rows_.advance(branches_[k].material, h, x + v() + 2 * first, x + at, base + at, out + at, out_p, count);
+  const double* u_now = (moves_u ? out : base) + u();
+  for (std::size_t r = run_begin_[block]; r < run_begin_[block + 1]; ++r) {
+    const SlotRun& run = runs_[r];
+    double* out_p = out + p() + 4 * run.slot;
+    rows_.begin(part_[run.region], u_now + 2 * run.node, out + v() + 2 * run.node, out_p, run.count);
+    for (std::size_t k = 0; k < branches_.size(); ++k) {
+      const std::size_t at = w(k) + 4 * run.slot;
+      rows_.advance(branches_[k][run.region].material, h, x + v() + 2 * run.node, x + at, base + at, out + at,
+                    out_p, run.count);
+    }
   }
 }
 
@@ -194,7 +225,7 @@ EnergySample ParallelBody::sample(double t) {
   EnergySample e;
   for (std::size_t i = 0; i < mass_.size(); ++i) e.kinetic += 0.5 * mass_[i] * xv[i] * xv[i];
   for (std::size_t k = 0; k < branches_.size(); ++k) {
-    const Forms forms = forms_of(state_.data() + w(k), 4, xv);
+    forms_of(state_.data() + w(k), 4, xv, forms_);
     const auto branch = [&](const BranchPart* part, double quadratic, double with_v) {
       if (part == nullptr) return;
       e.stored += 0.5 * quadratic / part->ela;
@@ -202,18 +233,24 @@ EnergySample ParallelBody::sample(double t) {
       e.dissipated += quadratic / part->vis;
       e.dissipated_rate += 2.0 * (part->ela * with_v - part->rate * quadratic) / part->vis;
     };
-    branch(branches_[k].lambda, forms.ll, forms.xl);
-    branch(branches_[k].mu, forms.mm, forms.xm);
+    for (std::size_t r = 0; r < forms_.size(); ++r) {
+      branch(branches_[k][r].lambda, forms_[r].ll, forms_[r].xl);
+      branch(branches_[k][r].mu, forms_[r].mm, forms_[r].xm);
+    }
   }
   if (elastic_) {
-    const Forms forms = forms_of(state_.data() + u(), 2, xv);
-    e.stored += 0.5 * (part_.elastic[0] * forms.ll + part_.elastic[2] * forms.mm);
+    forms_of(state_.data() + u(), 2, xv, forms_);
+    for (std::size_t r = 0; r < forms_.size(); ++r)
+      e.stored += 0.5 * (part_[r].elastic[0] * forms_[r].ll + part_[r].elastic[2] * forms_[r].mm);
   }
   if (viscous_ || interval_->moving) find_rate(t);
   if (viscous_) {
-    const Forms forms = forms_of(xv, 2, rate_.data() + v());
-    e.dissipated += part_.viscous[0] * forms.ll + part_.viscous[2] * forms.mm;
-    e.dissipated_rate += 2.0 * (part_.viscous[0] * forms.xl + part_.viscous[2] * forms.xm);
+    forms_of(xv, 2, rate_.data() + v(), forms_);
+    for (std::size_t r = 0; r < forms_.size(); ++r) {
+      const auto& viscous = part_[r].viscous;
+      e.dissipated += viscous[0] * forms_[r].ll + viscous[2] * forms_[r].mm;
+      e.dissipated_rate += 2.0 * (viscous[0] * forms_[r].xl + viscous[2] * forms_[r].xm);
+    }
   }
   terms_.sample(
       *this, t, state_.data() + u(), xv, [&](std::size_t node) { return force_at(node); }, e);

@@ -6,9 +6,24 @@
 
 namespace rheo {
 
+namespace {
+
+// One material: slots are nodes.
+std::vector<SlotRun> runs_of(const EdgeForm& form) {
+  std::vector<SlotRun> runs;
+  std::size_t first = 0;
+  for (const std::int32_t end : block_ends(form.blocks)) {
+    runs.push_back({first, first, end - static_cast<std::int64_t>(first), 0});
+    first = static_cast<std::size_t>(end);
+  }
+  return runs;
+}
+
+}  // namespace
+
 ParallelEdgeBody::ParallelEdgeBody(const Model& model, const EdgeForce& force, int threads)
     : ParallelBody(model, force.form().mesh_node, force.form().kernel_node, block_ends(force.form().blocks),
-                   paying_threads(force.form().nodes, threads)),
+                   paying_threads(force.form().nodes, threads), runs_of(force.form())),
       edge_force_(force),
       form_(force.form()),
       sums_(form_.blocks.size()) {
@@ -26,7 +41,8 @@ void ParallelEdgeBody::sweep_force(const SweepArrays& arrays, double h, std::siz
 
 // Sums over edges: x^T J_lambda w = - sum over edges of dx^T S dw, x^T J_mu w = - sum of dx^T (S + trace(S)
 // I) dw, and the boundary's antisymmetric part (h / 4) rot(w_next - w_previous), + for lambda, - for mu.
-ParallelBody::Forms ParallelEdgeBody::forms_of(const double* w, std::size_t stride, const double* x) {
+void ParallelEdgeBody::forms_of(const double* w, std::size_t stride, const double* x,
+                                std::span<Forms> forms) {
   const std::size_t mu = stride == 4 ? 2 : 0;
   team().chain(1, [&](std::size_t, std::size_t block) {
     Forms sums;
@@ -75,7 +91,7 @@ ParallelBody::Forms ParallelEdgeBody::forms_of(const double* w, std::size_t stri
     all.mm -= q * (wi[mu] * my - wi[mu + 1] * mx);
     all.xm -= q * (xi[0] * my - xi[1] * mx);
   }
-  return all;
+  forms.front() = all;
 }
 
 // Only constrained nodes are asked for, a few: one by one, not by a sweep over the mesh.

@@ -1,25 +1,49 @@
 #include "kernels/parallel_element_body.hpp"
 
 #include <algorithm>
-#include <cassert>
+#include <utility>
 
 #include "kernels/element_body.hpp"
 #include "kernels/node_blocks.hpp"
 
 namespace rheo {
 
+namespace {
+
+std::vector<SlotRun> runs_of(const ElementForm& form, const std::vector<ElementForm::Block>& blocks) {
+  std::vector<SlotRun> runs;
+  for (const ElementForm::Block& block : blocks) {
+    for (std::int32_t r = block.first_run; r < block.last_run; ++r) {
+      const ElementForm::Run& run = form.runs[r];
+      const std::int32_t first = std::max(run.first, block.first_node);
+      const std::int32_t last = std::min(run.last, block.last_node);
+      const auto node = static_cast<std::size_t>(first);
+      const auto slot = static_cast<std::size_t>(run.slot + (first - run.first) * run.slots_a_node);
+      if (run.slots_a_node == 1) {
+        runs.push_back({slot, node, last - first, static_cast<std::size_t>(run.region)});
+        continue;
+      }
+      for (std::size_t s = slot; s < slot + static_cast<std::size_t>(run.slots_a_node); ++s)
+        runs.push_back({s, node, 1, static_cast<std::size_t>(form.slot_region[s])});
+    }
+  }
+  return runs;
+}
+
+}  // namespace
+
 ParallelElementBody::ParallelElementBody(const Model& model, const ElementForce& force, int threads)
     : ParallelBody(model, force.form().mesh_node, force.form().kernel_node,
                    block_ends(element_blocks(force.form(), threads)),
-                   paying_threads(force.form().nodes, threads)),
+                   paying_threads(force.form().nodes, threads),
+                   runs_of(force.form(), element_blocks(force.form(), threads))),
       element_force_(force),
       form_(force.form()),
       blocks_(element_blocks(form_, threads)),
       stretches_(form_.blocks(smallest_block)),
       stretch_team_(block_ends(stretches_), team().threads()),
-      sums_(stretches_.size()) {
-  assert(form_.slots == form_.nodes);
-  forces_.assign(team().threads() > 1 ? 3 : 1, std::vector<double>(2 * nodes(), 0.0));
+      sums_(stretches_.size() * form_.materials.size()) {
+  forces_.assign(team().threads() > 1 ? 3 : 1, std::vector<double>(2 * slots(), 0.0));
 }
 
 // A node's force is the sum over its triangles in their order, in both of the ways: those of the block before
@@ -28,36 +52,74 @@ void ParallelElementBody::sweep_force(const SweepArrays& a, double h, std::size_
   const ElementForm::Block& b = blocks_[block];
   double* force = forces_[block % forces_.size()].data();
   if (forces_.size() > 1) {
-    const auto begin = static_cast<std::size_t>(blocks_[block > 0 ? block - 1 : 0].first_node);
-    const auto end = static_cast<std::size_t>(blocks_[std::min(block + 1, blocks_.size() - 1)].last_node);
+    const auto begin = static_cast<std::size_t>(
+        form_.slot_begin[static_cast<std::size_t>(blocks_[block > 0 ? block - 1 : 0].first_node)]);
+    const auto end = static_cast<std::size_t>(form_.slot_begin[static_cast<std::size_t>(
+        blocks_[std::min(block + 1, blocks_.size() - 1)].last_node)]);
     std::fill(force + 2 * begin, force + 2 * end, 0.0);
     element_force_.sweep().add_forces(form_, a.x_p, force, b.reaching, b.first_triangle);
   }
   element_force_.sweep().add_forces(form_, a.x_p, force, b.first_triangle, b.last_triangle);
-  const auto n = static_cast<std::size_t>(b.first_node);
-  const SweepArrays arrays{
-      a.x_p + 4 * n,   a.x_v + 2 * n,   a.base_p + 4 * n, a.base_v + 2 * n,
-      a.out_p + 4 * n, a.out_v + 2 * n, a.base_u + 2 * n, a.out_u == nullptr ? nullptr : a.out_u + 2 * n};
-  element_force_.sweep().advance({b.last_node - b.first_node, arrays, inverse_mass() + 2 * n, force + 2 * n},
-                                 SweepMaterial{}, h);
+  for (std::int32_t r = b.first_run; r < b.last_run; ++r) {
+    const ElementForm::Run& run = form_.runs[r];
+    const std::int32_t first = std::max(run.first, b.first_node);
+    const std::int32_t last = std::min(run.last, b.last_node);
+    const auto n = static_cast<std::size_t>(first);
+    const auto slot = static_cast<std::size_t>(run.slot + (first - run.first) * run.slots_a_node);
+    if (run.slots_a_node > 1) {
+      advance_interface(run, h, a, force);
+      continue;
+    }
+    const SweepArrays arrays{a.x_p + 4 * slot,    a.x_v + 2 * n,
+                             a.base_p + 4 * slot, a.base_v + 2 * n,
+                             a.out_p + 4 * slot,  a.out_v + 2 * n,
+                             a.base_u + 2 * n,    a.out_u == nullptr ? nullptr : a.out_u + 2 * n};
+    element_force_.sweep().advance({last - first, arrays, inverse_mass() + 2 * n, force + 2 * slot},
+                                   SweepMaterial{}, h);
+  }
+}
+
+// One node of several slots.
+void ParallelElementBody::advance_interface(const ElementForm::Run& run, double h, const SweepArrays& a,
+                                            double* force) const {
+  const auto node = static_cast<std::size_t>(run.first);
+  double* of_slot = force + 2 * static_cast<std::size_t>(run.slot);
+  for (std::size_t i = 2 * node; i < 2 * node + 2; ++i) {
+    double sum = 0.0;
+    for (std::int32_t s = 0; s < run.slots_a_node; ++s)
+      sum += std::exchange(of_slot[2 * s + static_cast<std::int32_t>(i % 2)], 0.0);
+    const double velocity = a.x_v[i];
+    a.out_v[i] = a.base_v[i] - h * (inverse_mass()[i] * sum);
+    if (a.out_u != nullptr) a.out_u[i] = a.base_u[i] + h * velocity;
+  }
 }
 
 // x^T J_lambda w_l = sum of div x div w, x^T J_mu w_m = sum of 2 xx xx + 2 yy yy + (xy + yx) (xy + yx), by
 // triangle; the gradients carry the square root of the volume.
-ParallelBody::Forms ParallelElementBody::forms_of(const double* w, std::size_t stride, const double* x) {
+void ParallelElementBody::forms_of(const double* w, std::size_t stride, const double* x,
+                                   std::span<Forms> forms) {
   const std::size_t mu = stride == 4 ? 2 : 0;
+  const std::size_t regions = forms.size();
+  std::fill(sums_.begin(), sums_.end(), Forms{});
   stretch_team_.chain(1, [&](std::size_t, std::size_t block) {
-    Forms sums;
+    Forms* const of_region = sums_.data() + block * regions;
+    Forms sums;  // of the region that the triangles are of
+    std::size_t region = 0;
     for (std::int64_t e = stretches_[block].first_triangle; e < stretches_[block].last_triangle; ++e) {
       const auto& q = form_.gradient[e];
       double dx[6] = {}, dy[6] = {};  // d/dx and d/dy of l, m, x
-      const std::size_t i = form_.offset[e][0] / 4;
+      const auto place = [&](std::size_t corner) {
+        const std::size_t slot = form_.offset[e][corner] / 4;
+        const auto node = static_cast<std::size_t>(form_.slot_node[slot]);
+        return std::array<std::size_t, 2>{stride == 4 ? slot : node, node};
+      };
+      const auto [wi, i] = place(0);
       for (std::size_t corner : {1u, 2u}) {
-        const std::size_t j = form_.offset[e][corner] / 4;
+        const auto [wj, j] = place(corner);
         const double b = q[2 * (corner - 1)], c = q[2 * (corner - 1) + 1];
         for (std::size_t k = 0; k < 2; ++k) {
-          const double l = w[stride * j + k] - w[stride * i + k];
-          const double m = w[stride * j + mu + k] - w[stride * i + mu + k];
+          const double l = w[stride * wj + k] - w[stride * wi + k];
+          const double m = w[stride * wj + mu + k] - w[stride * wi + mu + k];
           const double other = x[2 * j + k] - x[2 * i + k];
           dx[k] += b * l, dy[k] += c * l;
           dx[2 + k] += b * m, dy[2 + k] += c * m;
@@ -66,21 +128,28 @@ ParallelBody::Forms ParallelElementBody::forms_of(const double* w, std::size_t s
       }
       const double l = dx[0] + dy[1];
       const double mx = dx[2], my = dy[3], ms = dx[3] + dy[2];
+      if (regions > 1) {
+        const auto next = static_cast<std::size_t>(form_.slot_region[form_.offset[e][0] / 4]);
+        if (next != region) {
+          of_region[std::exchange(region, next)] = sums;
+          sums = of_region[region];
+        }
+      }
       sums.ll += l * l;
       sums.mm += 2 * (mx * mx + my * my) + ms * ms;
       sums.xl += (dx[4] + dy[5]) * l;
       sums.xm += 2 * (dx[4] * mx + dy[5] * my) + (dx[5] + dy[4]) * ms;
     }
-    sums_[block] = sums;
+    of_region[region] = sums;
   });
-  Forms all;
-  for (const Forms& sums : sums_) {
-    all.ll += sums.ll;
-    all.mm += sums.mm;
-    all.xl += sums.xl;
-    all.xm += sums.xm;
+  std::fill(forms.begin(), forms.end(), Forms{});
+  for (std::size_t k = 0; k < sums_.size(); ++k) {
+    Forms& all = forms[k % regions];
+    all.ll += sums_[k].ll;
+    all.mm += sums_[k].mm;
+    all.xl += sums_[k].xl;
+    all.xm += sums_[k].xm;
   }
-  return all;
 }
 
 // Only constrained nodes are asked for, a few: triangle by triangle, not by a sweep over the mesh.
@@ -93,7 +162,7 @@ std::array<double, 2> ParallelElementBody::force_of(const double* rows, std::siz
     for (std::size_t k = 0; k < 3; ++k) {
       const std::size_t slot = form_.offset[e][k] / 4;
       w[k] = rows + 4 * slot;
-      if (slot != node) continue;
+      if (static_cast<std::size_t>(form_.slot_node[slot]) != node) continue;
       b = k == 0 ? -(q[0] + q[2]) : q[2 * (k - 1)];
       c = k == 0 ? -(q[1] + q[3]) : q[2 * (k - 1) + 1];
     }

@@ -1,4 +1,4 @@
-// ParallelBody by the element form (element_form.hpp), of one material.
+// ParallelBody by the element form (element_form.hpp), of one or several materials.
 //
 // Threads  as ElementBody: blocks of nodes by several threads give the same bits
 #pragma once
@@ -19,20 +19,23 @@ class ParallelElementBody final : public ParallelBody {
 
  protected:
   void sweep_force(const SweepArrays& arrays, double h, std::size_t block) override;
-  Forms forms_of(const double* w, std::size_t stride, const double* x) override;
+  void forms_of(const double* w, std::size_t stride, const double* x, std::span<Forms> forms) override;
   std::array<double, 2> force_of(const double* rows, std::size_t node) const override;
 
  private:
+  void advance_interface(const ElementForm::Run& run, double h, const SweepArrays& arrays,
+                         double* force) const;
+
   const ElementForce& element_force_;
   const ElementForm& form_;
   std::vector<ElementForm::Block> blocks_;
-  // F by node while a sweep adds it up, zero otherwise; several threads: by block number modulo 3, because a
+  // F by slot while a sweep adds it up, zero otherwise; several threads: by block number modulo 3, because a
   // block's triangles reach into the blocks beside it.
   std::vector<std::vector<double>> forces_;
   // Of energies, by stretch: added up in their order, which the number of threads does not change.
   std::vector<ElementForm::Block> stretches_;
   BlockTeam stretch_team_;
-  std::vector<Forms> sums_;
+  std::vector<Forms> sums_;  // by stretch and region
 };
 
 }  // namespace rheo

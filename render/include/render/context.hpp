@@ -3,6 +3,7 @@
 // Errors   std::runtime_error: one line that names what is missing and the Debian package that brings it
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -27,6 +28,13 @@ class Context {
   virtual std::string description() const = 0;  // backend, driver, OpenGL and Mesa versions
   virtual void make_current() = 0;
 };
+
+// One that somebody else has made (a window's) and keeps alive. `find` gives the address of "glName", or null;
+// `make_current` is called before. Errors: also where the driver has less than OpenGL 3.3.
+using FunctionAddress = void (*)();
+std::unique_ptr<Context> adopt_context(const std::function<FunctionAddress(const char*)>& find,
+                                       std::function<void()> make_current, std::string name, int width,
+                                       int height);
 
 std::unique_ptr<Context> open_context(Backend backend, int width, int height);
 

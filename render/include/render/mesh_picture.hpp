@@ -56,6 +56,30 @@ struct MeshFrame {
   double time = 0.0;
 };
 
+enum class Shade { light, dark };
+enum class Show { no, yes };
+
+// What of the layout may change from frame to frame in a window.
+struct MeshView {
+  std::array<double, 2> range{0, 1};
+  std::array<double, 4> bounds{};
+  double arrow_scale = 0.0;
+  Shade shade = Shade::light;
+  Show mesh_lines = Show::yes;
+  Show rest_shape = Show::yes;
+  Show node_numbers = Show::no;
+  friend bool operator==(const MeshView&, const MeshView&) = default;
+};
+
+// Where the plane lies in the picture: pixel = (x, y) -> (at_x + scale x, at_y - scale y), from the top left.
+struct PlaneInPicture {
+  double at_x = 0, at_y = 0, scale = 1;
+  std::array<double, 2> pixel(double x, double y) const { return {at_x + scale * x, at_y - scale * y}; }
+  std::array<double, 2> plane(double px, double py) const {
+    return {(px - at_x) / scale, (at_y - py) / scale};
+  }
+};
+
 // What frames and sheets have cost so far.
 struct PictureCounters {
   std::int64_t frames_drawn = 0;
@@ -70,6 +94,8 @@ class MeshPicture {
  public:
   // Draws with `context`, which must outlive this; pictures have the context's size.
   MeshPicture(Context& context, const MeshLayout& layout);
+  // Of another size than the context's.
+  MeshPicture(Context& context, const MeshLayout& layout, int width, int height);
   ~MeshPicture();
   MeshPicture(MeshPicture&&) noexcept;
 
@@ -77,6 +103,19 @@ class MeshPicture {
   // resized where needed, its memory used again. Of a frame that differs from the last one by its time only,
   // all else is taken from there: the same pixels.
   void draw(const MeshFrame& frame, Image& out);
+
+  // The same, left on the graphics side: for a window, or for read().
+  void draw(const MeshFrame& frame);
+  void read(Image& out) const;
+  // From the next frame on.
+  void set_view(const MeshView& view);
+  const MeshView& view() const;
+  // Of the frames as drawn with the view as it is.
+  PlaneInPicture plane() const;
+  // The framebuffer's name in the context, top row first.
+  unsigned framebuffer() const;
+  int width() const;
+  int height() const;
 
   // Successive shapes in a grid, each with its time, all at one scale, one colour bar (the paper's Figure 3).
   // Where there are more shapes than sheet_room(), times that would touch each other are left out.

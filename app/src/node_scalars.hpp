@@ -1,0 +1,23 @@
+// What is coloured, at every node: for the recorder of a run and for the window alike.
+//
+// Units    w [Pa m], speed [m/s]
+// Shapes   out: n
+// Errors   none
+#pragma once
+
+#include <span>
+
+#include "rheo/simulation.hpp"
+
+namespace app {
+
+// branch: 0: all of w but the elastic part; 1, 2, ...: one Maxwell branch alone.
+void find_scalars(const rheo::Simulation& simulation, rheo::ColorBy color, int branch, std::span<double> out);
+
+struct ScalarText {
+  const char* name;  // empty: nothing is coloured
+  const char* unit;
+};
+ScalarText scalar_text(rheo::ColorBy color);
+
+}  // namespace app

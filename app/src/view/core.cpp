@@ -1,0 +1,337 @@
+#include "view/core.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "rheo/error.hpp"
+
+namespace app::view {
+namespace {
+
+constexpr int handle_count = 4;      // a hand that lets go takes a tick until it is idle
+constexpr int record_room = 400000;  // keys of a session: minutes of dragging
+constexpr double look_every = 0.1;   // [s]
+constexpr double rest_after = 0.5;   // [s]
+// What is slower than this cannot be seen: a colour step is 4e-3 of the largest w, a pixel 1e-3 of the size.
+constexpr double still_place = 1e-6;  // of the body's size, in look_every
+constexpr double still_w = 3e-5;      // of the largest w, likewise
+
+double size_of(const rheo::Mesh& mesh) {
+  double low_x = rheo::forever, low_y = rheo::forever, high_x = -rheo::forever, high_y = -rheo::forever;
+  for (const rheo::Vec2& p : mesh.points) {
+    low_x = std::min(low_x, p.x);
+    low_y = std::min(low_y, p.y);
+    high_x = std::max(high_x, p.x);
+    high_y = std::max(high_y, p.y);
+  }
+  return std::hypot(high_x - low_x, high_y - low_y);
+}
+
+// The last time at which the scene itself changes something.
+double last_event_of(const rheo::Scene& scene) {
+  double last = 0.0;
+  const auto see = [&](const rheo::Window& window) {
+    last = std::max(last, window.from);
+    if (std::isfinite(window.until)) last = std::max(last, window.until);
+  };
+  for (const rheo::Fix& fix : scene.fixes) see(fix.window);
+  for (const rheo::Move& move : scene.moves) {
+    see(move.window);
+    last = std::max(last, move.keys.back().t);
+  }
+  for (const rheo::Traction& traction : scene.tractions) {
+    see(traction.window);
+    last = std::max(last, traction.keys.back().t);
+  }
+  return last;
+}
+
+double norm(std::span<const double> x) {
+  double sum = 0.0;
+  for (const double value : x) sum += value * value;
+  return std::sqrt(sum);
+}
+
+double largest_change(std::span<const double> now, std::vector<double>& before) {
+  double largest = before.size() == now.size() ? 0.0 : rheo::forever;
+  for (std::size_t i = 0; i < now.size() && i < before.size(); ++i)
+    largest = std::max(largest, std::abs(now[i] - before[i]));
+  before.assign(now.begin(), now.end());
+  return largest;
+}
+
+void magnitudes(std::span<const double> field, std::vector<double>& out) {
+  out.resize(field.size() / 2);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = std::sqrt(field[2 * i] * field[2 * i] + field[2 * i + 1] * field[2 * i + 1]);
+}
+
+// Settings that a run to its end has and a window does without.
+rheo::Scene for_hands(rheo::Scene scene) {
+  scene.time.accuracy = 0.0;
+  if (scene.time.integrator == rheo::IntegratorKind::automatic)
+    scene.time.integrator = rheo::IntegratorKind::rk4;
+  return scene;
+}
+
+}  // namespace
+
+Core::Core(rheo::Scene scene, const CoreSettings& settings) : settings_(settings) {
+  start(for_hands(std::move(scene)), nullptr);
+  begin_again();
+}
+
+rheo::LiveSettings Core::live_settings(const rheo::Scene& scene, const CoreSettings& settings) {
+  rheo::LiveSettings live;
+  live.rate = settings.rate;
+  live.simulation = settings.simulation;
+  live.record = record_room;
+  if (scene.time.constraints == rheo::ConstraintMethod::baumgarte) return live;  // hands hold exactly
+  live.handles.resize(handle_count);
+  for (rheo::Handle& handle : live.handles) {
+    handle.name = "hand";
+    handle.capacity = most_picked_edges;
+  }
+  return live;
+}
+
+// The old one stays where the new one is refused.
+void Core::start(rheo::Scene scene, const rheo::SavedState* saved) {
+  rheo::validate(scene);
+  auto shared = std::make_shared<const rheo::Scene>(std::move(scene));
+  const rheo::LiveSettings settings = live_settings(*shared, settings_);
+  auto live = saved ? std::make_unique<rheo::Live>(*shared, settings, *saved)
+                    : std::make_unique<rheo::Live>(*shared, settings);
+  if (live_) steps_before_ += live_->simulation().counters().steps;
+  // A run that goes on with other parameters keeps its books.
+  const rheo::Energies old = live_ && saved ? energies() : rheo::Energies{};
+  live_ = std::move(live);
+  scene_ = std::move(shared);
+  dissipated_before_ = old.dissipated;
+  work_before_ = old.work;
+  whole_ = saved == nullptr || saved->t == 0.0;
+  ++run_;
+}
+
+void Core::begin_again() {
+  hold_ = Hold::nothing;
+  edges_.clear();
+  diverged_ = false;
+  still_ = false;
+  still_since_ = looked_at_ = live_->time();
+  looked_at_u_.clear();
+  looked_at_w_.clear();
+  largest_w_ = 0.0;
+  last_event_ = last_event_of(*scene_);
+  size_ = size_of(scene_->mesh);
+  const rheo::Energies now = energies();
+  energy_start_ = now.kinetic + now.stored + now.dissipated - now.work;
+}
+
+rheo::Energies Core::energies() const {
+  rheo::Energies energies = live_->simulation().energies();
+  energies.dissipated += dissipated_before_;
+  energies.work += work_before_;
+  return energies;
+}
+
+void Core::say(std::string message) {
+  message_ = std::move(message);
+  ++message_number_;
+}
+
+bool Core::begin(Hold hold, const std::vector<rheo::Edge>& edges) {
+  let_go();
+  if (hold == Hold::nothing || edges.empty() || diverged_) return false;
+  if (live_->handle_count() == 0) {
+    say("constraints = \"baumgarte\" leaves no room for a hand, which holds exactly: set \"auto\"");
+    return false;
+  }
+  std::vector<rheo::Edge> few(edges.begin(),
+                              edges.begin() + std::min<std::ptrdiff_t>(std::ssize(edges), most_picked_edges));
+  for (int tried = 0; tried < handle_count; ++tried) {
+    handle_ = (handle_ + 1) % handle_count;
+    if (!live_->pick(handle_, {}, few)) continue;
+    if (hold == Hold::grab && live_->grab(handle_) == 0) {
+      say("nothing to grab: the scene holds these nodes itself");
+      return false;
+    }
+    hold_ = hold;
+    edges_ = std::move(few);
+    target_ = at_ = velocity_ = {};
+    still_ = false;
+    return true;
+  }
+  return false;
+}
+
+void Core::aim(rheo::Vec2 target, double pace) {
+  if (!std::isfinite(target.x) || !std::isfinite(target.y)) return;
+  target_ = target;
+  follow_ = std::max(settings_.follow * pace, 1.0 / settings_.rate);
+  still_ = false;
+}
+
+void Core::let_go() {
+  if (hold_ == Hold::push) live_->push(handle_, {});
+  if (hold_ == Hold::grab) live_->release(handle_);
+  if (hold_ != Hold::nothing) {
+    still_ = false;
+    still_since_ = live_->time();
+  }
+  hold_ = Hold::nothing;
+}
+
+bool Core::change(rheo::Scene edited) {
+  const rheo::SavedState saved = live_->simulation().save();
+  const Hold hold = hold_;
+  const std::vector<rheo::Edge> edges = edges_;
+  try {
+    start(for_hands(std::move(edited)), live_->ticks() > 0 ? &saved : nullptr);
+  } catch (const rheo::Error& error) {
+    say(error.what());
+    return false;
+  }
+  begin_again();
+  // What the hand has it keeps: a push as it is; a grab begins anew from where it is.
+  const rheo::Vec2 target = target_, at = at_, velocity = velocity_;
+  if (hold != Hold::nothing && begin(hold, edges) && hold == Hold::push) {
+    target_ = target;
+    at_ = at;
+    velocity_ = velocity;
+  }
+  return true;
+}
+
+bool Core::load(rheo::Scene other) {
+  try {
+    start(for_hands(std::move(other)), nullptr);
+  } catch (const rheo::Error& error) {
+    say(error.what());
+    return false;
+  }
+  ++body_;
+  begin_again();
+  return true;
+}
+
+void Core::reset() {
+  start(*scene_, nullptr);
+  begin_again();
+}
+
+// The exact course over a tick towards a target that stands still.
+void Core::follow_target() {
+  const double h = 1.0 / settings_.rate, s = h / follow_, decay = std::exp(-s);
+  const auto go = [&](double& x, double& v, double target, double close) {
+    const double e = x - target, slope = v + e / follow_;
+    x = target + (e + slope * h) * decay;
+    v = (v - slope * s) * decay;
+    if (std::abs(x - target) <= close && std::abs(v) * follow_ <= close) {
+      x = target;
+      v = 0.0;
+    }
+  };
+  const double close = 1e-9 * std::hypot(target_.x, target_.y);
+  go(at_.x, velocity_.x, target_.x, close);
+  go(at_.y, velocity_.y, target_.y, close);
+}
+
+bool Core::tick() {
+  if (diverged_) return false;
+  if (hold_ != Hold::nothing) {
+    follow_target();
+    if (hold_ == Hold::push) live_->push(handle_, at_);
+    if (hold_ == Hold::grab) live_->drag(handle_, at_, velocity_);
+  }
+  if (const auto divergence = live_->tick()) {
+    diverged_ = true;
+    hold_ = Hold::nothing;
+    say(fmt::format("diverged at t = {:.4g} s near node {}: the stable step is {:.3g} s; reset to go on",
+                    divergence->t, divergence->node, divergence->stable_step));
+    return false;
+  }
+  watch_for_rest();
+  return true;
+}
+
+void Core::watch_for_rest() {
+  const double t = live_->time();
+  if (t - looked_at_ < look_every) return;
+  looked_at_ = t;
+  const rheo::Simulation& simulation = live_->simulation();
+  const double moved = largest_change(simulation.u(), looked_at_u_);
+  double w = 0.0;
+  for (const double value : simulation.w_mu()) w = std::max(w, std::abs(value));
+  for (const double value : simulation.w_lambda()) w = std::max(w, std::abs(value));
+  largest_w_ = std::max(largest_w_, w);
+  std::vector<double> both(simulation.w_lambda().begin(), simulation.w_lambda().end());
+  both.insert(both.end(), simulation.w_mu().begin(), simulation.w_mu().end());
+  const double changed = largest_change(both, looked_at_w_);
+  const bool hand_moves = hold_ != Hold::nothing && !(at_ == target_);
+  if (moved > still_place * size_ || changed > still_w * largest_w_ || hand_moves || t < last_event_)
+    still_since_ = t;
+  still_ = t - still_since_ >= rest_after;
+}
+
+void Core::show(Display& display) {
+  const rheo::Simulation& simulation = live_->simulation();
+  display.scene = scene_;
+  display.body = body_;
+  display.run = run_;
+  display.t = live_->time();
+  display.ticks = live_->ticks();
+  const std::span<const double> u = simulation.u();
+  display.positions.resize(u.size());
+  for (std::size_t i = 0; i < u.size() / 2; ++i) {
+    display.positions[2 * i] = scene_->mesh.points[i].x + u[2 * i];
+    display.positions[2 * i + 1] = scene_->mesh.points[i].y + u[2 * i + 1];
+  }
+  magnitudes(simulation.w_lambda(), display.w_lambda);
+  magnitudes(simulation.w_mu(), display.w_mu);
+  magnitudes(simulation.v(), display.speed);
+  display.w_lambda_norm = norm(display.w_lambda);
+  display.w_mu_norm = norm(display.w_mu);
+  display.held = simulation.held_nodes();
+  display.tractions = simulation.active_tractions();
+  display.hand.hold = hold_;
+  display.hand.edges = edges_;
+  display.hand.traction = display.hand.displacement = display.hand.force = {};
+  if (!edges_.empty() && !diverged_) {
+    const rheo::HandReading reading = live_->read(handle_);
+    display.hand.displacement = reading.displacement;
+    if (hold_ != Hold::nothing) display.hand.force = reading.force;
+    if (hold_ == Hold::push) display.hand.traction = live_->traction(handle_);
+  }
+  display.energies = energies();
+  display.energy_start = energy_start_;
+  display.steps = steps_before_ + simulation.counters().steps;
+  display.stable_step = simulation.stable_step();
+  display.step_bound = simulation.step_bound();
+  display.largest_step = simulation.largest_step();
+  display.kernel = simulation.kernel();
+  display.threads = simulation.threads();
+  display.message = message_;
+  display.message_number = message_number_;
+}
+
+std::optional<rheo::Scene> Core::session() {
+  if (!whole_) {
+    say("a session begins at t = 0: parameters were changed on the way; reset, do it again and save");
+    return std::nullopt;
+  }
+  if (live_->ticks() == 0) {
+    say("nothing has happened yet: there is no session to save");
+    return std::nullopt;
+  }
+  if (!live_->session_is_complete()) {
+    say("the session is longer than what is remembered: reset, and save sooner");
+    return std::nullopt;
+  }
+  return live_->session();
+}
+
+}  // namespace app::view

@@ -1,0 +1,202 @@
+#include "view/glfw_window.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "view/glfw_library.hpp"
+
+namespace app::view {
+namespace {
+
+constexpr int least_width = 300, least_height = 200;
+
+std::deque<GlfwWindow::Event>& events_of(GLFWwindow* window) {
+  return *static_cast<std::deque<GlfwWindow::Event>*>(glfw().GetWindowUserPointer(window));
+}
+
+std::string last_error() {
+  const char* text = nullptr;
+  glfw().GetError(&text);
+  return text != nullptr ? text : "no reason given";
+}
+
+}  // namespace
+
+GlfwWindow::Library::Library() {
+  if (glfw().Init() == GLFW_FALSE) throw std::runtime_error(fmt::format("no display ({})", last_error()));
+}
+GlfwWindow::Library::~Library() {
+  glfw().Terminate();
+}
+
+GlfwWindow::GlfwWindow(const std::string& title, int width, int height) {
+  glfw().WindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfw().WindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfw().WindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfw().WindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfw().WindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  glfw().WindowHint(GLFW_SAMPLES, 0);
+  GLFWmonitor* monitor = glfw().GetPrimaryMonitor();
+  if (monitor != nullptr) {
+    int x = 0, y = 0, w = 0, h = 0;
+    glfw().GetMonitorWorkarea(monitor, &x, &y, &w, &h);
+    if (w > least_width && h > least_height) {
+      width = std::min(width, w);
+      height = std::min(height, h);
+    }
+    if (const GLFWvidmode* mode = glfw().GetVideoMode(monitor); mode != nullptr && mode->refreshRate > 0)
+      period_ = 1.0 / mode->refreshRate;
+  }
+  window_ = glfw().CreateWindow(std::max(width, least_width), std::max(height, least_height), title.c_str(),
+                                nullptr, nullptr);
+  if (window_ == nullptr)
+    throw std::runtime_error(fmt::format("no window with OpenGL 3.3 ({})", last_error()));
+  glfw().SetWindowSizeLimits(window_, least_width, least_height, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  float sx = 1.0f, sy = 1.0f;
+  glfw().GetWindowContentScale(window_, &sx, &sy);
+  scale_ = std::clamp(std::max(sx, sy), 0.75f, 4.0f);
+  try {
+    context_ = render::adopt_context(
+        [](const char* name) {
+          return reinterpret_cast<render::FunctionAddress>(glfw().GetProcAddress(name));
+        },
+        [window = window_] {
+          if (glfw().GetCurrentContext() != window) glfw().MakeContextCurrent(window);
+        },
+        "GLFW", width, height);
+  } catch (...) {
+    glfw().DestroyWindow(window_);
+    throw;
+  }
+  glfw().SwapInterval(1);
+  install_callbacks();
+}
+
+GlfwWindow::~GlfwWindow() {
+  context_.reset();
+  glfw().DestroyWindow(window_);
+}
+
+void GlfwWindow::install_callbacks() {
+  using Kind = Event::Kind;
+  glfw().SetWindowUserPointer(window_, &events_);
+  glfw().SetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+    int ww = 1, wh = 1, fw = 1, fh = 1;
+    glfw().GetWindowSize(w, &ww, &wh);
+    glfw().GetFramebufferSize(w, &fw, &fh);
+    events_of(w).push_back({Kind::cursor,
+                            0,
+                            false,
+                            static_cast<float>(x * fw / std::max(ww, 1)),
+                            static_cast<float>(y * fh / std::max(wh, 1)),
+                            {}});
+  });
+  glfw().SetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
+    if (entered == GLFW_FALSE && glfw().GetMouseButton(w, GLFW_MOUSE_BUTTON_LEFT) == GLFW_RELEASE)
+      events_of(w).push_back({Kind::cursor, 0, false, -1e6f, -1e6f, {}});
+  });
+  glfw().SetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
+    if (button >= 0 && button < 3)
+      events_of(w).push_back({Kind::button, button, action == GLFW_PRESS, 0.0f, 0.0f, {}});
+  });
+  glfw().SetScrollCallback(window_, [](GLFWwindow* w, double, double y) {
+    events_of(w).push_back({Kind::wheel, 0, false, 0.0f, static_cast<float>(y), {}});
+  });
+  glfw().SetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
+    if (key >= 0 && key < key_count && action != GLFW_REPEAT)
+      events_of(w).push_back({Kind::key, key, action == GLFW_PRESS, 0.0f, 0.0f, {}});
+  });
+  glfw().SetCharCallback(window_, [](GLFWwindow* w, unsigned character) {
+    events_of(w).push_back({Kind::text, static_cast<int>(character), false, 0.0f, 0.0f, {}});
+  });
+  glfw().SetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
+    if (count > 0) events_of(w).push_back({Kind::drop, 0, false, 0.0f, 0.0f, paths[count - 1]});
+  });
+  // Without focus the releases of keys and buttons are not told.
+  glfw().SetWindowFocusCallback(window_, [](GLFWwindow* w, int focused) {
+    if (focused != GLFW_FALSE) return;
+    for (int button = 0; button < 3; ++button)
+      events_of(w).push_back({Kind::button, button, false, 0.0f, 0.0f, {}});
+  });
+}
+
+bool GlfwWindow::is_closed() const {
+  return glfw().WindowShouldClose(window_) != GLFW_FALSE;
+}
+
+bool GlfwWindow::is_visible() const {
+  int w = 0, h = 0;
+  glfw().GetFramebufferSize(window_, &w, &h);
+  return w > 0 && h > 0 && glfw().GetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_FALSE;
+}
+
+void GlfwWindow::collect(double at_most) {
+  if (at_most <= 0.0) {
+    glfw().PollEvents();
+    return;
+  }
+  waiting_ = true;
+  glfw().WaitEventsTimeout(at_most);
+  waiting_ = false;
+}
+
+void GlfwWindow::wake() {
+  if (waiting_.exchange(false)) glfw().PostEmptyEvent();
+}
+
+Input GlfwWindow::next_input(double seconds) {
+  using Kind = Event::Kind;
+  int width = 0, height = 0;
+  glfw().GetFramebufferSize(window_, &width, &height);
+  input_.width = std::max(width, 1);
+  input_.height = std::max(height, 1);
+  input_.seconds = seconds;
+  input_.wheel = 0.0f;
+  input_.text.clear();
+  input_.dropped.clear();
+  bool changed = false;  // a button or key
+  while (!events_.empty()) {
+    Event& event = events_.front();
+    const bool change = event.kind == Kind::button || event.kind == Kind::key;
+    if (changed && (change || event.kind == Kind::cursor)) break;
+    switch (event.kind) {
+      case Kind::cursor:
+        input_.cursor = {event.x, event.y};
+        break;
+      case Kind::button:
+        input_.buttons[static_cast<std::size_t>(event.code)] = event.down;
+        break;
+      case Kind::wheel:
+        input_.wheel += event.y;
+        break;
+      case Kind::key: {
+        const auto key = static_cast<Key>(event.code);
+        std::erase(input_.down, key);
+        if (event.down) input_.down.push_back(key);
+        if (event.code == GLFW_KEY_LEFT_CONTROL || event.code == GLFW_KEY_RIGHT_CONTROL)
+          input_.control = event.down;
+        if (event.code == GLFW_KEY_LEFT_SHIFT || event.code == GLFW_KEY_RIGHT_SHIFT)
+          input_.shift = event.down;
+        break;
+      }
+      case Kind::text:
+        input_.text.push_back(static_cast<unsigned>(event.code));
+        break;
+      case Kind::drop:
+        input_.dropped.emplace_back(event.path);
+        break;
+    }
+    changed = changed || change;
+    events_.pop_front();
+  }
+  return input_;
+}
+
+void GlfwWindow::swap() {
+  glfw().SwapBuffers(window_);
+}
+
+}  // namespace app::view

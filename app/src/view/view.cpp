@@ -1,0 +1,104 @@
+#include "view/view.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+
+#include "failure.hpp"
+#include "overrides.hpp"
+#include "view/glfw_window.hpp"
+
+namespace app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+constexpr double longest_wait = 3600.0;
+constexpr double minimised_wait = 0.25;  // [s]
+
+view::PictureStyle style_of(const rheo::PictureSettings& picture) {
+  view::PictureStyle style;
+  style.color = picture.color;
+  if (!picture.range_auto) {
+    style.range_mode = view::RangeMode::typed;
+    style.typed = {static_cast<float>(picture.range[0]), static_cast<float>(picture.range[1])};
+  }
+  return style;
+}
+
+// Frames at the display's rate while something moves; else none until something happens.
+void show(view::GlfwWindow& window, view::Ui& ui, double close_after) {
+  const Clock::time_point start = Clock::now();
+  Clock::time_point last = start;
+  while (!window.is_closed() && !ui.wants_to_quit()) {
+    const double left = close_after > 0.0 ? close_after - seconds_since(start) : longest_wait;
+    if (left <= 0.0) break;
+    if (!window.is_visible()) {
+      window.wait(std::min(left, minimised_wait));
+      continue;
+    }
+    if (ui.is_lively() || window.has_more()) {
+      window.poll();
+      // Where the display does not hold the swap back.
+      while (seconds_since(last) < 0.9 * window.frame_period())
+        window.wait(0.95 * window.frame_period() - seconds_since(last));
+    } else {
+      window.wait(left);
+    }
+    const double interval = seconds_since(last);
+    last = Clock::now();
+    ui.frame(window.next_input(interval));
+    ui.screen().present();
+    window.swap();
+  }
+}
+
+}  // namespace
+
+void view_scene(const Options& options) {
+  rheo::Scene scene = load_scene(options);
+  const auto size = options.size.value_or(std::array<int, 2>{1280, 720});
+  std::unique_ptr<view::GlfwWindow> window;
+  try {
+    window = std::make_unique<view::GlfwWindow>(scene.title.empty() ? "rheo" : scene.title + " - rheo",
+                                                size[0], size[1]);
+  } catch (const std::runtime_error& error) {
+    throw Failure(ExitCode::usage, fmt::format("view: {}: use rheo render {}, which needs no display",
+                                               error.what(), options.scene.string()));
+  }
+  view::UiSettings settings;
+  settings.scene = options.scene;
+  settings.folder = options.folder;
+  settings.scale = window->scale();
+  settings.style = style_of(scene.picture);
+  settings.read = [options](const std::filesystem::path& file) {
+    Options other;
+    other.scene = file;
+    return load_scene(other);
+  };
+  view::CoreSettings core;
+  core.simulation = options.simulation;
+  view::Physics physics(std::move(scene), core, [&window] { window->wake(); });
+  std::optional<view::Ui> ui(std::in_place, window->context(), physics, std::move(settings));
+  physics.run();
+  const Clock::time_point start = Clock::now();
+  show(*window, *ui, options.close_after);
+  const double seconds = seconds_since(start);
+  const view::Percentiles frames = view::percentiles_of(ui->frame_seconds());
+  if (!options.quiet)
+    fmt::print(
+        "{} frames in {:.1f} s, median {:.2f} ms, 99th percentile {:.2f} ms a frame; {} steps to t = {:.3f} "
+        "s\n",
+        ui->frame_seconds().size(), seconds, 1e3 * frames.median, 1e3 * frames.high, ui->shown().steps,
+        ui->shown().t);
+}
+
+}  // namespace app

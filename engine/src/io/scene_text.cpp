@@ -1,0 +1,194 @@
+#include "rheo/io/scene_text.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "rheo/error.hpp"
+
+namespace rheo {
+namespace {
+
+std::string number(double x) {
+  return std::isinf(x) ? (x > 0 ? "inf" : "-inf") : fmt::format("{:.17g}", x);
+}
+
+std::string quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+  }
+  return out + '"';
+}
+
+const char* name_of(Axis axis) {
+  return axis == Axis::both ? "both" : axis == Axis::x ? "x" : "y";
+}
+
+class SceneWriter {
+ public:
+  explicit SceneWriter(const Scene& scene) : scene_(scene) {
+    if (!scene.regions.empty())
+      throw Error(Error::Kind::input, "a scene with several regions cannot be written as a file yet");
+  }
+
+  std::string text() {
+    line("title = {}", quoted(scene_.title));
+    mesh();
+    material();
+    line("\n[body_force]\nacceleration = [{}, {}]", number(scene_.body_acceleration.x),
+         number(scene_.body_acceleration.y));
+    for (const Fix& fix : scene_.fixes) {
+      line("\n[[fix]]");
+      held(fix.nodes, fix.axis);
+      window(fix.window);
+    }
+    for (const Move& each : scene_.moves) move(each);
+    for (const Constraint& each : scene_.constraints) constraint(each);
+    for (const Traction& each : scene_.tractions) traction(each);
+    for (const Probe& probe : scene_.probes) {
+      line("\n[[probe]]\nname = {}", quoted(probe.name));
+      if (probe.edges.empty())
+        nodes(probe.nodes);
+      else
+        edges("edges", probe.edges);
+    }
+    time();
+    render();
+    return std::move(out_);
+  }
+
+ private:
+  template <class... Values>
+  void line(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<Values>(values)...);
+    out_ += '\n';
+  }
+
+  // name = [row, row, ...], one a line where they are many.
+  template <class Rows, class Text>
+  void rows(const std::string& name, const Rows& all, const Text& text) {
+    out_ += name + " = [";
+    bool first = true;
+    for (const auto& row : all) {
+      if (!first) out_ += all.size() > 8 ? ",\n  " : ", ";
+      first = false;
+      out_ += text(row);
+    }
+    out_ += "]\n";
+  }
+  void edges(const std::string& name, const std::vector<Edge>& all) {
+    rows(name, all, [](const Edge& e) { return fmt::format("[{}, {}]", e[0], e[1]); });
+  }
+  void nodes(const std::vector<int>& all) {
+    rows("nodes", all, [](int node) { return std::to_string(node); });
+  }
+  void held(const std::vector<int>& all, Axis axis) {
+    nodes(all);
+    if (axis != Axis::both) line("axis = {}", quoted(name_of(axis)));
+  }
+  void window(const Window& w) {
+    if (w.from != 0.0) line("from = {}", number(w.from));
+    if (std::isfinite(w.until)) line("until = {}", number(w.until));
+  }
+
+  void mesh() {
+    line("\n[mesh]\nthickness = {}", number(scene_.mesh.thickness));
+    rows("points", scene_.mesh.points,
+         [](const Vec2& p) { return fmt::format("[{}, {}]", number(p.x), number(p.y)); });
+    rows("triangles", scene_.mesh.triangles,
+         [](const Triangle& t) { return fmt::format("[{}, {}, {}]", t[0], t[1], t[2]); });
+    line("\n[edges]");
+    for (const auto& [name, group] : scene_.mesh.edge_groups) {
+      if (name != "boundary" && !group.empty()) edges(quoted(name), group);
+    }
+  }
+
+  void branch(const MaxwellBranch& b) {
+    line("lambda_ela = {}\nmu_ela = {}\nlambda_vis = {}\nmu_vis = {}", number(b.lambda_ela), number(b.mu_ela),
+         number(b.lambda_vis), number(b.mu_vis));
+  }
+
+  void material() {
+    const Material& m = scene_.material;
+    line("\n[material]");
+    branch(m.branch(0));
+    line("density = {}\nmass = {}", number(m.density),
+         quoted(m.mass == Mass::lumped ? "lumped" : "consistent"));
+    if (m.elastic.lambda != 0.0 || m.elastic.mu != 0.0)
+      line("\n[material.elastic]\nlambda = {}\nmu = {}", number(m.elastic.lambda), number(m.elastic.mu));
+    if (m.viscous.lambda != 0.0 || m.viscous.mu != 0.0)
+      line("\n[material.viscous]\nlambda = {}\nmu = {}", number(m.viscous.lambda), number(m.viscous.mu));
+    for (const MaxwellBranch& b : m.more_branches) {
+      line("\n[[material.maxwell]]");
+      branch(b);
+    }
+  }
+
+  void move(const Move& m) {
+    static constexpr const char* profiles[]{"smooth", "linear", "hermite"};
+    line("\n[[move]]");
+    held(m.nodes, m.axis);
+    window(m.window);
+    line("profile = \"{}\"", profiles[static_cast<int>(m.profile)]);
+    rows("keys", m.keys, [&](const MoveKey& k) {
+      if (m.profile == Profile::hermite)
+        return fmt::format("[{}, {}, {}, {}, {}]", number(k.t), number(k.u.x), number(k.u.y), number(k.v.x),
+                           number(k.v.y));
+      return fmt::format("[{}, {}, {}]", number(k.t), number(k.u.x), number(k.u.y));
+    });
+  }
+
+  void constraint(const Constraint& c) {
+    line("\n[[constraint]]\nvalue = {}", number(c.value));
+    rows("terms", c.terms, [](const ConstraintTerm& t) {
+      return fmt::format("[{}, \"{}\", {}]", t.node, name_of(t.axis), number(t.coefficient));
+    });
+  }
+
+  void traction(const Traction& t) {
+    line("\n[[traction]]");
+    edges("edges", t.edges);
+    window(t.window);
+    if (t.keys.size() == 1) {
+      line("vector = [{}, {}]", number(t.keys[0].p.x), number(t.keys[0].p.y));
+      return;
+    }
+    rows("keys", t.keys, [](const TractionKey& k) {
+      return fmt::format("[{}, {}, {}]", number(k.t), number(k.p.x), number(k.p.y));
+    });
+  }
+
+  void time() {
+    static constexpr const char* integrators[]{"rk4", "euler", "exponential", "implicit", "rk4"};
+    const TimeSettings& t = scene_.time;
+    line("\n[time]\nduration = {}\nframe_rate = {}\nintegrator = \"{}\"", number(t.duration),
+         number(t.frame_rate), integrators[static_cast<int>(t.integrator)]);
+    if (t.step > 0.0) line("step = {}", number(t.step));
+    if (t.accuracy > 0.0) line("accuracy = {}", number(t.accuracy));
+    line("baumgarte = {}", number(t.baumgarte));
+    if (t.constraints == ConstraintMethod::baumgarte) line("constraints = \"baumgarte\"");
+  }
+
+  void render() {
+    static constexpr const char* colors[]{"w_lambda", "w_mu", "w", "speed", "none"};
+    const PictureSettings& p = scene_.picture;
+    line("\n[render]\ncolor = \"{}\"\nsize = [{}, {}]", colors[static_cast<int>(p.color)], p.size[0],
+         p.size[1]);
+    if (p.branch != 0) line("branch = {}", p.branch);
+    if (!p.range_auto) line("range = [{}, {}]", number(p.range[0]), number(p.range[1]));
+  }
+
+  const Scene& scene_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string scene_text(const Scene& scene) {
+  return SceneWriter(scene).text();
+}
+
+}  // namespace rheo

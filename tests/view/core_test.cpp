@@ -1,0 +1,222 @@
+// A body under the window's hand, tick by tick.
+#include "view/core.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "rheo/io/scene_file.hpp"
+#include "rheo/io/scene_text.hpp"
+#include "view/history.hpp"
+#include "view/triple_buffer.hpp"
+#include "view_scene.hpp"
+
+namespace view_tests {
+namespace {
+
+using app::view::Core;
+using app::view::Display;
+using app::view::Hold;
+using testing::HasSubstr;
+
+void run(Core& core, int ticks) {
+  for (int k = 0; k < ticks; ++k) ASSERT_TRUE(core.tick()) << core.message();
+}
+
+std::vector<rheo::Edge> right_of(const rheo::Scene& scene) {
+  return scene.mesh.edge_groups.at("right");
+}
+
+// The node at the top right.
+double corner_x(const Core& core) {
+  const auto u = core.live().simulation().u();
+  return u[u.size() - 2];
+}
+
+TEST(ViewCore, WhatIsPushedAndReleasedComesBackPartOfTheWay) {
+  Core core(block(), {});
+  ASSERT_TRUE(core.begin(Hold::push, right_of(core.scene())));
+  core.aim({300.0, 0.0}, 1.0);
+  run(core, 300);
+  Display pushed;
+  core.show(pushed);
+  EXPECT_NEAR(pushed.hand.traction.x, 300.0, 0.1);  // the hand's course is there after fifteen times 0.02 s
+  EXPECT_GT(pushed.hand.force.x, 0.0);
+  const double far = corner_x(core);
+  EXPECT_GT(far, 1e-4);
+  core.let_go();
+  run(core, 2000);
+  EXPECT_LT(corner_x(core), 0.95 * far);
+  EXPECT_GT(corner_x(core), 0.05 * far);
+  Display released;
+  core.show(released);
+  EXPECT_EQ(released.hand.hold, Hold::nothing);
+  EXPECT_EQ(released.hand.traction, rheo::Vec2{});
+}
+
+TEST(ViewCore, AGrabFollowsTheHandAndTellsTheReaction) {
+  Core core(block(), {});
+  ASSERT_TRUE(core.begin(Hold::grab, right_of(core.scene())));
+  core.aim({0.004, 0.001}, 1.0);
+  run(core, 150);  // before the stress has relaxed
+  Display display;
+  core.show(display);
+  EXPECT_GT(display.hand.force.x, 0.0);
+  run(core, 850);
+  // One node of the right side is the table's.
+  const auto u = core.live().simulation().u();
+  EXPECT_DOUBLE_EQ(u[u.size() - 2], 0.004);
+  EXPECT_DOUBLE_EQ(u[u.size() - 1], 0.001);
+}
+
+TEST(ViewCore, NothingToGrabWhereTheSceneHoldsAll) {
+  Core core(block(), {});
+  EXPECT_FALSE(core.begin(Hold::grab, core.scene().mesh.edge_groups.at("bottom")));
+  EXPECT_THAT(core.message(), HasSubstr("nothing to grab"));
+}
+
+TEST(ViewCore, ARefusedStepNamesTheLimitAndTheOldOneGoesOn) {
+  Core core(block(), {});
+  run(core, 10);
+  rheo::Scene edited = core.scene();
+  edited.time.step = 1.0;
+  EXPECT_FALSE(core.change(edited));
+  EXPECT_THAT(core.message(), HasSubstr("stable"));
+  EXPECT_EQ(core.scene().time.step, 0.0);
+  EXPECT_EQ(core.live().ticks(), 10);
+  run(core, 10);
+  EXPECT_EQ(core.live().ticks(), 20);
+}
+
+TEST(ViewCore, AnotherMaterialGoesOnFromTheSameShape) {
+  Core core(block(), {});
+  ASSERT_TRUE(core.begin(Hold::push, right_of(core.scene())));
+  core.aim({300.0, 0.0}, 1.0);
+  run(core, 200);
+  const double before = corner_x(core);
+  Display books;
+  core.show(books);
+  rheo::Scene edited = core.scene();
+  edited.material.mu_ela *= 3.0;
+  ASSERT_TRUE(core.change(edited)) << core.message();
+  EXPECT_EQ(corner_x(core), before);
+  EXPECT_EQ(core.live().ticks(), 200);
+  run(core, 1);
+  Display display;
+  core.show(display);
+  EXPECT_EQ(display.hand.hold, Hold::push);
+  EXPECT_NEAR(display.hand.traction.x, 300.0, 1.0);
+  // Its books go on; what the other stiffness makes of the same residual forces is not the hand's work.
+  EXPECT_NEAR(display.energies.work, books.energies.work, 0.05 * books.energies.work);  // of one tick
+  EXPECT_GE(display.energies.dissipated, books.energies.dissipated);
+  EXPECT_NEAR(app::view::drift_of(display), 0.0, 1e-6 * display.energies.work);
+  EXPECT_FALSE(core.session());
+  EXPECT_THAT(core.message(), HasSubstr("changed"));
+  core.reset();
+  EXPECT_EQ(core.live().ticks(), 0);
+  EXPECT_EQ(corner_x(core), 0.0);
+  EXPECT_EQ(core.scene().material.mu_ela, edited.material.mu_ela);
+}
+
+TEST(ViewCore, ComesToRestAndWakesUp) {
+  Core core(block(), {});
+  run(core, 700);
+  EXPECT_TRUE(core.still());  // nothing ever happened
+  ASSERT_TRUE(core.begin(Hold::push, right_of(core.scene())));
+  EXPECT_FALSE(core.still());
+  core.aim({100.0, 0.0}, 1.0);
+  run(core, 700);
+  EXPECT_FALSE(core.still());  // it creeps
+  core.let_go();
+  int ticks = 0;
+  while (!core.still() && ticks < 20000) {
+    ASSERT_TRUE(core.tick());
+    ++ticks;
+  }
+  EXPECT_LT(ticks, 20000);
+}
+
+// The session written as a scene file and read again gives the same bits with the same step.
+TEST(ViewCore, ASessionReadFromItsTextRepeatsToTheBit) {
+  rheo::Scene scene = block();
+  rheo::Traction& pulse = scene.tractions.emplace_back();
+  pulse.edges = scene.mesh.edge_groups.at("top");
+  pulse.keys = {{0.0, {0, 0}}, {0.1, {0, -50}}, {0.2, {0, 0}}};
+  Core core(std::move(scene), {});
+  run(core, 20);
+  ASSERT_TRUE(core.begin(Hold::push, right_of(core.scene())));
+  core.aim({200.0, -80.0}, 0.7);
+  run(core, 60);
+  core.aim({-100.0, 30.0}, 0.7);
+  run(core, 40);
+  core.let_go();
+  run(core, 30);
+  ASSERT_TRUE(core.begin(Hold::grab, core.scene().mesh.edge_groups.at("top")));
+  core.aim({0.001, 0.002}, 1.0);
+  run(core, 50);
+  core.let_go();
+  run(core, 17);
+  const auto session = core.session();
+  ASSERT_TRUE(session) << core.message();
+  const std::string text = rheo::scene_text(*session);
+  rheo::Simulation again(rheo::parse_scene(text, "session.toml", "."));
+  for (std::int64_t k = 0; k < rheo::output_count(again.scene().time); ++k)
+    ASSERT_FALSE(again.advance(rheo::output_time(again.scene().time, k)));
+  const rheo::Simulation& live = core.live().simulation();
+  EXPECT_EQ(again.time(), live.time());
+  const auto same = [](std::span<const double> a, std::span<const double> b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+  };
+  EXPECT_TRUE(same(again.u(), live.u()));
+  EXPECT_TRUE(same(again.v(), live.v()));
+  EXPECT_TRUE(same(again.w_lambda(), live.w_lambda()));
+  EXPECT_TRUE(same(again.w_mu(), live.w_mu()));
+  EXPECT_EQ(again.counters().steps, live.counters().steps);
+  EXPECT_EQ(rheo::scene_text(again.scene()), text);
+}
+
+TEST(ViewCore, ABodyThatDivergesIsKeptAndSaysSo) {
+  app::view::CoreSettings settings;
+  settings.simulation.allow_unstable = true;
+  rheo::Scene scene = block();
+  scene.time.step = 1e-3;  // a tick; made too long by a hundredfold stiffness
+  scene.material.lambda_ela *= 1e4;
+  scene.material.mu_ela *= 1e4;
+  Core core(std::move(scene), settings);
+  ASSERT_TRUE(core.begin(Hold::push, right_of(core.scene())));
+  core.aim({10.0, 0.0}, 1.0);
+  bool well = true;
+  for (int k = 0; k < 1000 && well; ++k) well = core.tick();
+  ASSERT_FALSE(well);
+  EXPECT_THAT(core.message(), HasSubstr("diverged"));
+  EXPECT_FALSE(core.begin(Hold::push, right_of(core.scene())));
+  core.reset();
+  EXPECT_TRUE(core.tick());
+}
+
+TEST(TripleBuffer, TheReaderSeesWholeValuesThatNeverGoBack) {
+  struct Pair {
+    int a = 0, b = 0;
+  };
+  app::view::TripleBuffer<Pair> buffer;
+  constexpr int last = 20000;
+  std::thread writer([&] {
+    for (int k = 1; k <= last; ++k) {
+      buffer.back() = {k, -k};
+      buffer.publish();
+    }
+  });
+  int seen = 0;
+  while (seen < last) {
+    const Pair& now = buffer.newest();
+    ASSERT_EQ(now.a, -now.b);
+    ASSERT_GE(now.a, seen);
+    seen = now.a;
+  }
+  writer.join();
+}
+
+}  // namespace
+}  // namespace view_tests

@@ -1,0 +1,325 @@
+// The window as a person uses it: all of its content off-screen, with a synthetic cursor and keys.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <fstream>
+#include <set>
+
+#include "render/mesh_picture.hpp"
+#include "ui_driver.hpp"
+#include "view_scene.hpp"
+
+#define RHEO_DRAW_OR_SKIP(context)                 \
+  const auto context = view_tests::open_or_null(); \
+  if (!context) GTEST_SKIP() << "this machine has no way to draw (libosmesa6)"
+
+namespace view_tests {
+namespace {
+
+using app::view::Display;
+using app::view::Hold;
+using app::view::Key;
+using app::view::key_of;
+
+bool all_finite(const Display& d) {
+  const auto finite = [](double x) { return std::isfinite(x); };
+  return std::ranges::all_of(d.positions, finite) && std::ranges::all_of(d.w_lambda, finite) &&
+         std::ranges::all_of(d.w_mu, finite);
+}
+
+double corner_x(const Driver& user) {
+  const auto& positions = user.ui.shown().positions;
+  return positions[positions.size() - 2] - 0.1;
+}
+
+int pixels_unlike(const render::Image& a, const render::Image& b) {
+  if (a.rgba.size() != b.rgba.size()) return -1;
+  int count = 0;
+  for (std::size_t i = 0; i < a.rgba.size(); i += 4)
+    count +=
+        a.rgba[i] != b.rgba[i] || a.rgba[i + 1] != b.rgba[i + 1] || a.rgba[i + 2] != b.rgba[i + 2] ? 1 : 0;
+  return count;
+}
+
+TEST(ViewUi, AnEdgePushedAndReleasedComesBackPartOfTheWayAndTheWindowTells) {
+  RHEO_DRAW_OR_SKIP(context);
+  Driver user(*context, block(), output_folder());
+  // The middle of the right side lights up under the cursor.
+  render::Image before, lit;
+  const auto at = user.pixel(0.1, 0.03);
+  user.ui.screen().read(before);
+  user.move(at[0], at[1]);
+  user.ui.screen().read(lit);
+  EXPECT_GT(pixels_unlike(before, lit), 50);
+  user.press();
+  ASSERT_TRUE(user.until([](const Display& d) { return d.hand.hold == Hold::push; }));
+  user.move(at[0] + 80, at[1]);
+  ASSERT_TRUE(user.ticks(400));
+  const double far = corner_x(user);
+  EXPECT_GT(far, 1e-4);
+  EXPECT_TRUE(user.says("push ")) << "the arrow's value";
+  EXPECT_TRUE(user.says("Pa ("));
+  EXPECT_TRUE(user.says(" N)") || user.says("mN)"));
+  EXPECT_GT(user.ui.history().force.back(), 0.0);
+  const double strong = user.ui.history().w_lambda.back();
+  EXPECT_GT(strong, 0.0);
+  user.release();
+  ASSERT_TRUE(user.until([](const Display& d) { return d.hand.hold == Hold::nothing; }));
+  ASSERT_TRUE(user.ticks(2000));
+  EXPECT_LT(corner_x(user), 0.95 * far);
+  EXPECT_GT(corner_x(user), 0.05 * far);
+  EXPECT_FALSE(user.says("push "));
+  EXPECT_LT(user.ui.history().w_lambda.back(), 0.2 * strong);
+  for (const char* text : {"|w| [Pa m]", "E [J]", "u [m]", "F [N]", "steps a frame", "stable step", "kernel",
+                           "energy drift", "frames/s, real time x"})
+    EXPECT_TRUE(user.says(text)) << text;
+}
+
+TEST(ViewUi, AGrabbedEdgeFollowsTheCursorAndShowsTheReaction) {
+  RHEO_DRAW_OR_SKIP(context);
+  Driver user(*context, block(), output_folder());
+  user.key(key_of('G'));
+  const auto at = user.pixel(0.1, 0.05), to = user.pixel(0.104, 0.052);
+  user.move(at[0], at[1]);
+  user.press();
+  ASSERT_TRUE(user.until([](const Display& d) { return d.hand.hold == Hold::grab; }));
+  user.move(to[0], to[1]);
+  ASSERT_TRUE(user.ticks(600));
+  const auto& positions = user.ui.shown().positions;
+  const double pixel = 1.0 / user.ui.picture().plane().scale;  // Dear ImGui knows whole ones only
+  EXPECT_NEAR(positions[positions.size() - 2], 0.104, pixel);
+  EXPECT_NEAR(positions[positions.size() - 1], 0.052, pixel);
+  EXPECT_TRUE(user.says("reaction "));
+  EXPECT_FALSE(user.says("reaction 0 N"));
+  user.release();
+  ASSERT_TRUE(user.until([](const Display& d) { return d.hand.hold == Hold::nothing; }));
+}
+
+// What `rheo render` draws of the same state at the same place and size: not a pixel differs.
+TEST(ViewUi, ItsPictureIsTheRenderersOwn) {
+  RHEO_DRAW_OR_SKIP(context);
+  Driver user(*context, block(), output_folder(),
+              {.range_mode = app::view::RangeMode::typed, .typed = {0.0f, 8.0f}});
+  const auto at = user.pixel(0.1, 0.03);
+  user.move(at[0], at[1]);
+  user.press();
+  ASSERT_TRUE(user.until([](const Display& d) { return d.hand.hold == Hold::push; }));
+  user.move(at[0] + 80, at[1]);
+  ASSERT_TRUE(user.ticks(300));
+  user.release();
+  ASSERT_TRUE(user.until([](const Display& d) { return d.hand.hold == Hold::nothing; }));
+  ASSERT_TRUE(user.ticks(50));
+  user.frame();
+  render::Image shown, alone, whole;
+  user.ui.picture().read(shown);
+  user.ui.screen().read(whole);
+
+  const Display& d = user.ui.shown();
+  std::vector<double> rest;
+  for (const rheo::Vec2& p : d.scene->mesh.points) rest.insert(rest.end(), {p.x, p.y});
+  std::vector<int> triangles, boundary;
+  for (const auto& t : d.scene->mesh.triangles) triangles.insert(triangles.end(), t.begin(), t.end());
+  for (const auto& e : d.scene->mesh.edge_groups.at("boundary"))
+    boundary.insert(boundary.end(), e.begin(), e.end());
+  const auto [x, y, width, height] = user.ui.picture_area();
+  const auto other = render::open_context(render::Backend::automatic, width, height);
+  render::MeshPicture picture(*other, {.rest = rest,
+                                       .triangles = triangles,
+                                       .boundary = boundary,
+                                       .title = "Block",
+                                       .scalar_name = "|w_lambda|",
+                                       .scalar_unit = "Pa m",
+                                       .range = {0.0, 8.0},
+                                       .bounds = user.ui.picture().bounds(),
+                                       .arrow_scale = user.ui.picture().mesh_picture().view().arrow_scale});
+  picture.draw({.positions = d.positions, .scalar = d.w_lambda, .held = d.held, .arrows = {}, .time = d.t},
+               alone);
+  ASSERT_EQ(alone.width, shown.width);
+  EXPECT_EQ(pixels_unlike(alone, shown), 0);
+  // In the window it lies beside the panels; over it there is the clock's plate only, at the bottom.
+  int unlike = 0;
+  for (int row = 0; row < height - 40; ++row)
+    for (int column = 0; column < width; ++column) {
+      const auto i = 4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(width) +
+                          static_cast<std::size_t>(column));
+      const auto j = 4 * (static_cast<std::size_t>(row + y) * static_cast<std::size_t>(whole.width) +
+                          static_cast<std::size_t>(column + x));
+      for (std::size_t k = 0; k < 3; ++k) unlike += alone.rgba[i + k] != whole.rgba[j + k] ? 1 : 0;
+    }
+  // The lit edges and the brush under the cursor, where it rests.
+  EXPECT_LT(unlike, 6000);
+}
+
+TEST(ViewUi, PausesStepsResetsByKeys) {
+  RHEO_DRAW_OR_SKIP(context);
+  Driver user(*context, block(), output_folder());
+  user.key(Key::space);
+  EXPECT_TRUE(user.until([](const Display& d) { return d.running && d.ticks > 0; }));
+  user.key(Key::space);
+  ASSERT_TRUE(user.until([](const Display& d) { return !d.running; }));
+  user.frame();
+  EXPECT_TRUE(user.says("paused"));
+  const std::int64_t ticks = user.ui.shown().ticks;
+  user.key(Key::period);
+  EXPECT_TRUE(user.until([&](const Display& d) { return d.ticks == ticks + 1; }));
+  user.key(key_of('R'));
+  EXPECT_TRUE(user.until([](const Display& d) { return d.ticks == 0; }));
+  user.key(Key::minus);
+  EXPECT_TRUE(user.until([](const Display& d) { return d.speed_wanted == 0.5; }));
+  user.key(key_of('H'));
+  EXPECT_TRUE(user.says("push or grab the lit edges; release lets go"));
+}
+
+TEST(ViewUi, ABrokenSceneThatIsDroppedIsAMessageAndTheOldOneGoesOn) {
+  RHEO_DRAW_OR_SKIP(context);
+  const fs::path folder = output_folder();
+  std::ofstream(folder / "broken.toml") << "[mesh]\nshape = \"rectangel\"\n";
+  Driver user(*context, block(), folder);
+  user.input.dropped = {folder / "broken.toml"};
+  user.frame();
+  ASSERT_TRUE(user.until([&](const Display& d) { return d.message_number > 0; }));
+  user.frame();
+  EXPECT_TRUE(user.says("rectangel"));
+  EXPECT_EQ(user.ui.shown().scene->title, "Block");
+  EXPECT_TRUE(user.ticks(3));
+  user.input.dropped = {fs::path(RHEO_SOURCE_DIR) / "app" / "scenes" / "beam.toml"};
+  user.frame();
+  ASSERT_TRUE(user.until([&](const Display& d) { return d.body == 1; }));
+  user.frame();
+  EXPECT_EQ(user.ui.shown().scene->mesh.triangles.size(), 8u);
+}
+
+TEST(ViewUi, ASliderOfTheMaterialActsBetweenSteps) {
+  RHEO_DRAW_OR_SKIP(context);
+  Driver user(*context, block(), output_folder());
+  user.input.height = 1300;
+  user.frames(3);
+  const auto* slider = user.widget("mu_ela");
+  ASSERT_NE(slider, nullptr);
+  const double before = user.ui.shown().scene->material.mu_ela;
+  user.move((slider->x0 + slider->x1) / 2 - 40, (slider->y0 + slider->y1) / 2);
+  user.press();
+  user.release();
+  EXPECT_TRUE(user.until([&](const Display& d) { return d.scene->material.mu_ela != before; }));
+  EXPECT_TRUE(user.ticks(20));
+  EXPECT_TRUE(all_finite(user.ui.shown()));
+}
+
+// Each is pressed once; none of it breaks the body or the window.
+TEST(ViewUi, EveryWidgetIsReachedAndHarmless) {
+  RHEO_DRAW_OR_SKIP(context);
+  rheo::Scene scene = block();
+  rheo::Traction& load = scene.tractions.emplace_back();
+  load.edges = scene.mesh.edge_groups.at("top");
+  load.keys = {{0.0, {0, -20}}};
+  scene.material.more_branches.push_back({100, 50, 20, 10});
+  scene.material.elastic = {200, 100};
+  scene.material.viscous = {1, 1};
+  Driver user(*context, scene, output_folder());
+  user.input.width = 1200;
+  user.input.height = 1300;
+  user.frames(3);
+  // Closed sections open by a click on their heading, which lies about their own height below the last
+  // widget.
+  std::set<std::string> pressed;
+  const auto press_new = [&] {
+    for (bool again = true; again;) {
+      again = false;
+      for (const auto& widget : user.ui.widgets()) {
+        if (pressed.contains(widget.name) || widget.name.ends_with(".toml") || widget.name == "Help")
+          continue;
+        pressed.insert(widget.name);
+        const float x = widget.x0 + std::min(10.0f, (widget.x1 - widget.x0) / 2),
+                    y = (widget.y0 + widget.y1) / 2;
+        user.click(x, y);
+        user.key(Key::escape);  // closes a list that has opened
+        again = true;
+        break;
+      }
+    }
+  };
+  press_new();
+  for (int y = 300; y < 1090; y += 22) {  // headings
+    const std::size_t known = user.ui.widgets().size();
+    user.click(60.0f, static_cast<float>(y));
+    user.key(Key::escape);
+    if (user.ui.widgets().size() > known) press_new();
+    if (user.ui.widgets().size() < known) user.click(60.0f, static_cast<float>(y));
+  }
+  for (const char* name :
+       {"Run",    "Step",       "Reset",      "Restart",      "speed",      "push",
+        "grab",   "brush",      "strength",   "colour",       "auto",       "held",
+        "typed",  "mesh",       "rest shape", "nodes",        "dark",       "lambda_ela",
+        "mu_ela", "lambda_vis", "mu_vis",     "density",      "integrator", "automatic step",
+        "omega",  "m/s²",       "Pa, load 1", "Save session", "Picture",    "|w|",
+        "E",      "u",          "F"})
+    EXPECT_TRUE(pressed.contains(name)) << name;
+  EXPECT_TRUE(user.ticks(5));
+  EXPECT_TRUE(all_finite(user.ui.shown()));
+}
+
+TEST(ViewUi, AnySizeIsDrawn) {
+  RHEO_DRAW_OR_SKIP(context);
+  Driver user(*context, block(), output_folder());
+  for (const auto& [width, height] : {std::pair{300, 200}, {2560, 1440}, {760, 519}, {1, 1}, {1280, 720}}) {
+    user.input.width = width;
+    user.input.height = height;
+    user.frames(2);
+    render::Image image;
+    user.ui.screen().read(image);
+    EXPECT_EQ(image.width, width);
+    EXPECT_EQ(image.height, height);
+    // The body is in it: its fill or its outline in the middle of the picture's area.
+    if (width < 10) continue;
+    std::set<std::uint32_t> colours;
+    const auto [x, y, w, h] = user.ui.picture_area();
+    for (int k = 0; k < w && x + k < width; ++k) {
+      const auto i = 4 * (static_cast<std::size_t>(y + h / 2) * static_cast<std::size_t>(width) +
+                          static_cast<std::size_t>(x + k));
+      colours.insert(
+          static_cast<std::uint32_t>(image.rgba[i] << 16 | image.rgba[i + 1] << 8 | image.rgba[i + 2]));
+    }
+    EXPECT_GT(colours.size(), 3u) << width << " x " << height;
+  }
+}
+
+TEST(ViewUi, ARecordingHasOneFrameForEachSixtiethAndLosesNone) {
+  RHEO_DRAW_OR_SKIP(context);
+  const fs::path folder = output_folder();
+  Driver user(*context, block(), folder);
+  user.key(Key::f9);
+  ASSERT_TRUE(user.until([](const Display& d) { return d.ticks >= 200; }));
+  user.key(Key::f9);
+  user.key(Key::f12);
+  int count = 0;
+  while (fs::exists(folder / "frames_001" / ("frame_0000" + std::to_string(count) + ".png")) && count < 10)
+    ++count;
+  EXPECT_EQ(count, 10);  // 200 ms are 12 frames
+  EXPECT_TRUE(fs::exists(folder / "picture_001.png"));
+}
+
+TEST(ViewUi, ZoomKeepsWhatIsUnderTheCursorAndFitBringsAllBack) {
+  RHEO_DRAW_OR_SKIP(context);
+  Driver user(*context, block(), output_folder());
+  const auto at = user.pixel(0.02, 0.04);
+  user.input.cursor = at;
+  user.input.wheel = 3.0f;
+  user.frame();
+  user.frame();
+  const auto now = user.pixel(0.02, 0.04);
+  EXPECT_NEAR(now[0], at[0], 0.6f);
+  EXPECT_NEAR(now[1], at[1], 0.6f);
+  EXPECT_GT(user.pixel(0.1, 0.0)[0] - user.pixel(0.0, 0.0)[0], 1.4f * 0.9f * (at[0] - user.pixel(0, 0)[0]));
+  user.press(1);
+  user.move(at[0] + 30, at[1] + 20);
+  user.release(1);
+  user.frame();
+  EXPECT_NEAR(user.pixel(0.02, 0.04)[0], at[0] + 30, 0.6f);
+  user.key(key_of('F'));
+  const auto area = user.ui.picture_area();
+  EXPECT_GT(user.pixel(0.0, 0.0)[0], static_cast<float>(area[0]));
+  EXPECT_LT(user.pixel(0.1, 0.0)[0], static_cast<float>(area[0] + area[2]));
+}
+
+}  // namespace
+}  // namespace view_tests
