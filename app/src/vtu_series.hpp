@@ -22,6 +22,7 @@ class VtuSeries : public OutputSink {
  private:
   OutputFolder& folder_;
   std::vector<rheo::VtuEntry> entries_;
+  std::vector<double> stress_;  // of the moment, m x 3
 };
 
 }  // namespace app

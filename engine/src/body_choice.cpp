@@ -14,8 +14,6 @@
 namespace rheo {
 
 Assembly assembly_for(const Scene& scene, Kernel kernel, SimdLevel level) {
-  if (!scene.regions.empty())
-    throw Error(Error::Kind::input, "several materials in one mesh: not in this version");
   const bool implicit = scene.time.integrator == IntegratorKind::implicit;
   const bool asked = kernel == Kernel::edge || kernel == Kernel::element;
   const char* name = kernel == Kernel::edge ? "edge" : "element";

@@ -201,10 +201,10 @@ struct MeshPicture::Impl {
   // All of a frame but its time.
   void draw_still(const MeshFrame& frame, const Parts& p, const std::string& title) {
     begin();
-    const Camera at = camera(p);
-    draw_body(at, frame, 1, arrow_length(p.body), p.body);
+    const Camera seen = camera(p);
+    draw_body(seen, frame, 1, arrow_length(p.body), p.body);
     body.labels.draw(
-        canvas, body.labels.boxes(canvas, at, frame.positions, TextSize::normal, line_room(p.body), p.body),
+        canvas, body.labels.boxes(canvas, seen, frame.positions, TextSize::normal, line_room(p.body), p.body),
         TextSize::normal);
     draw_heading(p, title);
     canvas.flush();

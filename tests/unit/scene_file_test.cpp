@@ -251,7 +251,7 @@ TEST(ShippedScenes, AreAllReadWithoutRemarks) {
     EXPECT_LE(scene.mesh.triangle_count(), 5000) << entry.path();
     ++count;
   }
-  EXPECT_EQ(count, 5);
+  EXPECT_EQ(count, 8);
 }
 
 TEST(ShippedScenes, BeamIsThePapersBeam) {

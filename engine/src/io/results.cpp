@@ -169,7 +169,10 @@ void write_vtu(const std::filesystem::path& path, const Mesh& mesh, const StateV
   strain(mesh, state.u, tensor);
   write_array(file, "strain", 3, tensor, names);
   const bool apart = !state.pull_lambda.empty();
-  stress(mesh, apart ? state.pull_lambda : state.w_lambda, apart ? state.pull_mu : state.w_mu, tensor);
+  if (state.stress.empty())
+    stress(mesh, apart ? state.pull_lambda : state.w_lambda, apart ? state.pull_mu : state.w_mu, tensor);
+  else
+    tensor.assign(state.stress.begin(), state.stress.end());
   write_array(file, "stress", 3, tensor, names);
   std::vector<std::int64_t> bodies(mesh.triangles.size(), 1), regions(mesh.triangles.size(), 0);
   for (std::size_t b = 0; b < parts.bodies.size(); ++b) {

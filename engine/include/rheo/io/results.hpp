@@ -21,6 +21,7 @@ namespace rheo {
 struct StateView {  // all n x 2
   std::span<const double> u, v, w_lambda, w_mu;
   std::span<const double> pull_lambda = {}, pull_mu = {};  // what the stress comes from; empty: w
+  std::span<const double> stress = {};                     // m x 3, where it is known; empty: from those
 };
 
 // What a mesh consists of; empty: one body, one material.
