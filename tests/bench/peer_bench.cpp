@@ -62,10 +62,10 @@ int rate(realtype, N_Vector y, N_Vector out, void* data) {
   equations.force.noalias() += m.j(rheo::Modulus::mu) * x.segment(3 * part, part);
   r.segment(0, part) = x.segment(part, part);
   r.segment(part, part) = equations.inverse_mass.cwiseProduct(equations.c.interval.force - equations.force);
-  r.segment(2 * part, part) =
-      m.material.lambda_ela * x.segment(part, part) - m.material.lambda_rate() * x.segment(2 * part, part);
+  r.segment(2 * part, part) = m.material().lambda_ela * x.segment(part, part) -
+                              m.material().lambda_rate() * x.segment(2 * part, part);
   r.segment(3 * part, part) =
-      m.material.mu_ela * x.segment(part, part) - m.material.mu_rate() * x.segment(3 * part, part);
+      m.material().mu_ela * x.segment(part, part) - m.material().mu_rate() * x.segment(3 * part, part);
   return 0;
 }
 

@@ -71,10 +71,10 @@ void step_csr(benchmark::State& state) {
     force.noalias() += m.j(rheo::Modulus::mu) * x.segment(3 * part, part);
     out.segment(0, part) = x.segment(part, part);
     out.segment(part, part) = inverse_mass.cwiseProduct(c.interval.force - force);
-    out.segment(2 * part, part) =
-        m.material.lambda_ela * x.segment(part, part) - m.material.lambda_rate() * x.segment(2 * part, part);
+    out.segment(2 * part, part) = m.material().lambda_ela * x.segment(part, part) -
+                                  m.material().lambda_rate() * x.segment(2 * part, part);
     out.segment(3 * part, part) =
-        m.material.mu_ela * x.segment(part, part) - m.material.mu_rate() * x.segment(3 * part, part);
+        m.material().mu_ela * x.segment(part, part) - m.material().mu_rate() * x.segment(3 * part, part);
   };
   const double h = c.step;
   const auto step = [&] {
@@ -149,7 +149,8 @@ void step_edge_best(benchmark::State& state) {
 void step_assembled(benchmark::State& state) {
   const Case& c = case_of(static_cast<int>(state.range(0)));
   rheo::AssembledBody body(*c.model, 0.0);
-  const auto entries = static_cast<double>(c.model->j_lambda.nonZeros() + c.model->j_mu.nonZeros());
+  const auto entries = static_cast<double>(c.model->j(rheo::Modulus::lambda).nonZeros() +
+                                           c.model->j(rheo::Modulus::mu).nonZeros());
   run_body(state, c, body, 4 * (12 * entries + 8.0 * static_cast<double>(c.model->layout.part) * 10),
            4 * (2 * entries + 12.0 * static_cast<double>(c.model->layout.part)));
 }
