@@ -135,12 +135,14 @@ timeout 5 xdotool windowmap "$window"
 sleep 1
 kill -0 "$program" 2>/dev/null || fail "the program has ended while out of sight"
 
-# Out of sight it has lost the focus, and a key may be lost with it; at the latest it closes by itself.
-for k in 1 2 3; do
-  timeout 5 xdotool mousemove --window "$window" 700 300 2>/dev/null
-  timeout 5 xdotool key --window "$window" ctrl+q 2>/dev/null
+# Out of sight it has lost the focus, and no window manager gives it back.
+waited=0
+while kill -0 "$program" 2>/dev/null && [ $waited -lt 20 ]; do
+  timeout 5 xdotool windowfocus "$window" mousemove --window "$window" 700 300 key ctrl+q 2>/dev/null
   sleep 0.5
+  waited=$((waited + 1))
 done
+[ $waited -lt 20 ] || fail "it does not end by its key"
 wait "$program"
 code=$?
 program=
