@@ -1,10 +1,48 @@
 #include "full_spectrum.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
 
 namespace rheo {
+namespace {
 
-std::vector<std::complex<double>> full_spectrum(const Model& model, const ConstraintSolver& solver) {
+using Real = long double;
+using MatrixR = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+using Symmetric = Eigen::SelfAdjointEigenSolver<MatrixR>;
+
+// Of the largest eigenvalue: by how much QR's rounding may move one, and what no deformation has.
+constexpr Real rounding = 1e-17L;
+constexpr Real rigid = 1e-16L;
+// Of the largest stiffness of a rate: it is added up in double.
+constexpr Real no_stiffness = 1e-14L;
+
+// The rows of the root of a symmetric matrix that are not zero: root^T root = matrix.
+MatrixR root_of(const MatrixR& matrix) {
+  const Symmetric solver(matrix);
+  const Real largest = std::max(solver.eigenvalues().maxCoeff(), Real{0});
+  Eigen::Index first = 0;  // eigenvalues rise
+  while (first < matrix.rows() && !(solver.eigenvalues()[first] > no_stiffness * largest)) ++first;
+  MatrixR root(matrix.rows() - first, matrix.cols());
+  for (Eigen::Index i = first; i < matrix.rows(); ++i)
+    root.row(i - first) = std::sqrt(solver.eigenvalues()[i]) * solver.eigenvectors().col(i).transpose();
+  return root;
+}
+
+// Spans, in x = M^1/2 v, what the columns leave free: (M^-1/2 a)^T x = 0 for each.
+MatrixR free_directions(const MatrixR& unroot, const MatrixR& columns) {
+  if (columns.cols() == 0) return MatrixR::Identity(unroot.rows(), unroot.rows());
+  MatrixR scaled = unroot * columns;
+  for (Eigen::Index k = 0; k < scaled.cols(); ++k) scaled.col(k).normalize();
+  const Eigen::ColPivHouseholderQR<MatrixR> qr(scaled);
+  const MatrixR q = qr.householderQ();
+  return q.rightCols(unroot.rows() - qr.rank());
+}
+
+}  // namespace
+
+std::vector<std::complex<double>> full_spectrum(const Model& model, const ConstraintSolver& solver,
+                                                int most) {
   const auto size = static_cast<Eigen::Index>(model.layout.part);
   std::vector<Eigen::Index> free;
   for (Eigen::Index dof = 0; dof < size; ++dof) {
@@ -19,43 +57,61 @@ std::vector<std::complex<double>> full_spectrum(const Model& model, const Constr
   const std::vector<SharedRelaxation> relaxations = relaxations_of(materials);
   const auto n = static_cast<Eigen::Index>(free.size());
   const Eigen::Index parts = 1 + static_cast<Eigen::Index>(relaxations.size());
-  if (free.empty() || parts * n > most_eigenvalues) return {};
+  if (free.empty() || parts * n > most) return {};
 
-  // P M^-1 (lambda J_lambda + mu J_mu) on the free degrees of freedom, a column at a time.
-  const Vector target = Vector::Zero(static_cast<Eigen::Index>(solver.columns().size()));
-  Vector multipliers = target, unit(size), acceleration(size);
-  const auto product = [&](const std::vector<Moduli>& moduli) {
-    Eigen::MatrixXd result(n, n);
+  std::vector<Eigen::Index> place(static_cast<std::size_t>(size), -1);
+  for (Eigen::Index i = 0; i < n; ++i) place[static_cast<std::size_t>(free[i])] = i;
+  MatrixR columns = MatrixR::Zero(n, static_cast<Eigen::Index>(solver.columns().size()));
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+    for (const auto& [dof, coefficient] : solver.columns()[static_cast<std::size_t>(k)].entries)
+      if (place[dof] >= 0) columns(place[dof], k) = coefficient;
+  }
+  // Of `apply` on the free degrees of freedom, a column at a time.
+  Vector unit(size), image(size);
+  const auto dense = [&](const auto& apply) {
+    MatrixR result(n, n);
     for (Eigen::Index k = 0; k < n; ++k) {
       unit.setZero();
       unit[free[k]] = 1.0;
-      acceleration.setZero();
-      solver.solve(model.stiffness(moduli, unit), acceleration, target, multipliers);
-      for (Eigen::Index i = 0; i < n; ++i) result(i, k) = acceleration[free[i]];
+      apply();
+      for (Eigen::Index i = 0; i < n; ++i) result(i, k) = image[free[i]];
     }
-    return result;
+    return MatrixR((result + result.transpose()) / 2);
   };
-  std::vector<Eigen::MatrixXd> stiffness;  // over mass [1/s^2]
-  double squared = 0.0;
+  const Symmetric mass(dense([&] { model.multiply_mass(unit.data(), image.data()); }));
+  const MatrixR unroot = mass.operatorInverseSqrt();
+  const MatrixR to_v = unroot * free_directions(unroot, columns);
+  const auto stiffness = [&](const std::vector<Moduli>& moduli) {
+    return MatrixR(to_v.transpose() * dense([&] { image = model.stiffness(moduli, unit); }) * to_v);
+  };
+  std::vector<MatrixR> couplings;
+  Eigen::Index all = to_v.cols();
   for (const SharedRelaxation& each : relaxations) {
-    stiffness.push_back(product(each.moduli));
-    squared = std::max(squared, stiffness.back().norm());
+    couplings.push_back(root_of(stiffness(each.moduli)));
+    all += couplings.back().rows();
   }
   const bool damped = model.has_viscous_part();
-  if (squared == 0.0 && !damped) return {};
+  if (all == 0 || (all == to_v.cols() && !damped)) return {};
 
-  // q in units of 1 / omega: off-diagonal blocks of one size lose the least to rounding.
-  const double omega = squared > 0.0 ? std::sqrt(squared) : 1.0;
-  Eigen::MatrixXd full = Eigen::MatrixXd::Zero(parts * n, parts * n);
-  if (damped) full.topLeftCorner(n, n) = -product(viscous);
-  for (Eigen::Index k = 1; k < parts; ++k) {
-    const auto i = static_cast<std::size_t>(k - 1);
-    full.block(0, k * n, n, n) = -stiffness[i] / omega;
-    full.block(k * n, 0, n, n).diagonal().setConstant(omega);
-    full.block(k * n, k * n, n, n).diagonal().setConstant(-relaxations[i].rate);
+  MatrixR full = MatrixR::Zero(all, all);
+  if (damped) full.topLeftCorner(to_v.cols(), to_v.cols()) = -stiffness(viscous);
+  Eigen::Index at = to_v.cols();
+  for (std::size_t k = 0; k < couplings.size(); ++k) {
+    const Eigen::Index rows = couplings[k].rows();
+    full.block(at, 0, rows, to_v.cols()) = couplings[k];
+    full.block(0, at, to_v.cols(), rows) = -couplings[k].transpose();
+    full.block(at, at, rows, rows).diagonal().setConstant(-static_cast<Real>(relaxations[k].rate));
+    at += rows;
   }
-  const Eigen::VectorXcd values = Eigen::EigenSolver<Eigen::MatrixXd>(full, false).eigenvalues();
-  return {values.begin(), values.end()};
+  const auto found = Eigen::EigenSolver<MatrixR>(full, false).eigenvalues();
+  const Real largest = found.cwiseAbs().maxCoeff();
+  std::vector<std::complex<double>> values;
+  for (const std::complex<Real>& s : found) {
+    if (std::abs(s) <= rigid * largest) continue;
+    values.emplace_back(static_cast<double>(std::min(s.real() + rounding * largest, Real{0})),
+                        static_cast<double>(s.imag()));
+  }
+  return values;
 }
 
 }  // namespace rheo

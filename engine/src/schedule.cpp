@@ -13,8 +13,10 @@
 namespace rheo {
 namespace {
 
-constexpr std::size_t solvers_kept = 16;  // beyond it they are made again when their interval comes
-constexpr std::size_t spectra_taken = 8;  // beyond it the free body's frequency bounds all
+constexpr std::size_t solvers_kept = 16;   // beyond it they are made again when their interval comes
+constexpr double rates_that_matter = 0.1;  // of the largest frequency: RK4 (design)
+constexpr int most_for_rk4 = 96;           // eigenvalues, which take some ten milliseconds
+constexpr std::size_t spectra_taken = 8;   // beyond it the free body's frequency bounds all
 
 }  // namespace
 
@@ -175,19 +177,24 @@ void Schedule::make_spectrum() {
   const bool rates_differ =
       parallel ? damped || s.relaxations.size() > 1 : s.lambda_on && s.mu_on && s.lambda_rate != s.mu_rate;
   const bool euler = scene_.time.integrator == IntegratorKind::euler;
-  bool eigenvalues = rates_differ && euler && sets_.size() <= spectra_taken;
+  const bool rk4 = scene_.time.integrator == IntegratorKind::rk4;
+  bool eigenvalues = rates_differ && (euler || rk4) && sets_.size() <= spectra_taken;
   const auto include = [&](const ConstraintSolver& constrained) {
-    if (eigenvalues) {
-      const auto found = full_spectrum(model_, constrained);
-      eigenvalues = !found.empty();
-      s.eigenvalues.insert(s.eigenvalues.end(), found.begin(), found.end());
-    }
     const RitzBound bound = largest_frequency(model_, constrained, springs);
     omega = std::max(omega, bound.omega);
     s.lanczos_steps = std::max(s.lanczos_steps, bound.steps);
     if (damped) {
       const double root = largest_frequency(model_, constrained, dashpots).omega;
       damping = std::max(damping, root * root);
+    }
+    // RK4's limit hangs on rates only where they are not small beside the vibrations.
+    const bool rates_matter = euler || std::max(s.largest_rate(), damping) > rates_that_matter * bound.omega;
+    if (eigenvalues && rates_matter) {
+      const auto found = full_spectrum(model_, constrained, euler ? most_eigenvalues : most_for_rk4);
+      eigenvalues = !found.empty();
+      s.eigenvalues.insert(s.eigenvalues.end(), found.begin(), found.end());
+    } else {
+      eigenvalues = false;
     }
   };
   if (sets_.size() <= spectra_taken) {

@@ -56,18 +56,10 @@ Eigen::Vector3cd mode_roots(double w2, double a, double p, double q) {
   return Eigen::EigenSolver<Eigen::Matrix3d>(companion, false).eigenvalues() * scale;
 }
 
-// Largest step that keeps all of `values` stable, whatever rounding did to them.
+// Largest step that keeps all of `values` stable.
 double step_of_eigenvalues(const std::vector<std::complex<double>>& values, IntegratorKind integrator) {
-  constexpr double rounding = 1e-12;   // of the largest eigenvalue
-  constexpr double unlimiting = 1e-6;  // rigid motion: zeros in Jordan blocks, moved by the rounding's root
-  double largest = 0.0;
-  for (const std::complex<double> s : values) largest = std::max(largest, std::abs(s));
   double step = infinite;
-  for (const std::complex<double> s : values) {
-    if (std::abs(s) < unlimiting * largest) continue;
-    const double damped = std::min(s.real() + rounding * largest, 0.0);
-    step = std::min(step, stable_step_of({damped, s.imag()}, integrator));
-  }
+  for (const std::complex<double> s : values) step = std::min(step, stable_step_of(s, integrator));
   return step;
 }
 
