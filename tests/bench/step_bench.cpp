@@ -6,6 +6,7 @@
 //   step/<kernel>/<triangles>  the engine's integrator on its operator, without energies
 //   step2/edge/<triangles>     the same with two threads
 //   branches/<kernel>/<triangles>/<n>  n Maxwell branches of either modulus in parallel, on one thread
+//   regions/<kernel>/<triangles>       two materials in the mesh, on one thread
 //   start/<triangles>          a simulation made ready: the kernel's numbers, the stable step; no file is
 //   read
 //
@@ -28,6 +29,7 @@
 #include "body_choice.hpp"
 #include "kernels/edge_body.hpp"
 #include "kernels/element_body.hpp"
+#include "regions.hpp"
 
 namespace {
 
@@ -245,5 +247,36 @@ void branch_sizes(benchmark::internal::Benchmark* b) {
 
 BENCHMARK(step_branches<rheo::Assembly::edges>)->Name("branches/edge")->Apply(branch_sizes);
 BENCHMARK(step_branches<rheo::Assembly::elements>)->Name("branches/element")->Apply(branch_sizes);
+
+// Two materials: a disk of a stiffer one in the middle, a fifth of the triangles.
+template <rheo::Assembly assembly>
+void step_regions(benchmark::State& state) {
+  const Case& c = case_of(static_cast<int>(state.range(0)));
+  rheo::Scene scene = c.scene;
+  scene.regions.push_back({"disk", {14, 20, 8, 3, 0.3, rheo::Mass::lumped}, {}, "disk"});
+  for (const rheo::Triangle& t : scene.mesh.triangles) {
+    const rheo::Vec2 p = scene.mesh.points[static_cast<std::size_t>(t[0])];
+    scene.region_of_triangle.push_back(std::hypot(p.x - 0.5, p.y - 0.5) < 0.25 ? 1 : 0);
+  }
+  const rheo::Model model(scene.mesh, rheo::regions_of(scene), assembly);
+  const auto body = rheo::make_body(scene, model, 1);
+  rheo::Interval interval = c.interval;
+  interval.solver = std::make_shared<rheo::ConstraintSolver>(model, c.held(), std::vector<rheo::Column>{});
+  body->enter(interval, c.base);
+  std::vector<double> y(model.layout.size(), 0.0);
+  std::copy(c.y.begin(), c.y.begin() + static_cast<std::ptrdiff_t>(2 * model.layout.part), y.begin());
+  body->load(y);
+  const auto integrator = rheo::make_integrator(rheo::IntegratorKind::rk4, body->size());
+  for (auto _ : state) {
+    integrator->step(*body, 0.0, c.step, body->state(), {});
+    body->impose_prescribed(0.0);
+  }
+  state.counters["ns/tri"] =
+      benchmark::Counter(1e-9 * c.scene.mesh.triangle_count(),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+BENCHMARK(step_regions<rheo::Assembly::matrices>)->Name("regions/csr")->Apply(sizes);
+BENCHMARK(step_regions<rheo::Assembly::elements>)->Name("regions/element")->Apply(sizes);
 
 }  // namespace
