@@ -17,16 +17,18 @@ constexpr Real rigid = 1e-16L;
 // Of the largest stiffness of a rate: it is added up in double.
 constexpr Real no_stiffness = 1e-14L;
 
-// The rows of the root of a symmetric matrix that are not zero: root^T root = matrix.
-MatrixR root_of(const MatrixR& matrix) {
+// The rows of the root of a symmetric matrix that are not zero: root^T root = matrix. False where QR
+// iteration does not end.
+bool root_of(const MatrixR& matrix, MatrixR& root) {
   const Symmetric solver(matrix);
+  if (solver.info() != Eigen::Success) return false;
   const Real largest = std::max(solver.eigenvalues().maxCoeff(), Real{0});
   Eigen::Index first = 0;  // eigenvalues rise
   while (first < matrix.rows() && !(solver.eigenvalues()[first] > no_stiffness * largest)) ++first;
-  MatrixR root(matrix.rows() - first, matrix.cols());
+  root.resize(matrix.rows() - first, matrix.cols());
   for (Eigen::Index i = first; i < matrix.rows(); ++i)
     root.row(i - first) = std::sqrt(solver.eigenvalues()[i]) * solver.eigenvectors().col(i).transpose();
-  return root;
+  return true;
 }
 
 // Spans, in x = M^1/2 v, what the columns leave free: (M^-1/2 a)^T x = 0 for each.
@@ -79,6 +81,7 @@ std::vector<std::complex<double>> full_spectrum(const Model& model, const Constr
     return MatrixR((result + result.transpose()) / 2);
   };
   const Symmetric mass(dense([&] { model.multiply_mass(unit.data(), image.data()); }));
+  if (mass.info() != Eigen::Success) return {};
   const MatrixR unroot = mass.operatorInverseSqrt();
   const MatrixR to_v = unroot * free_directions(unroot, columns);
   const auto stiffness = [&](const std::vector<Moduli>& moduli) {
@@ -87,7 +90,7 @@ std::vector<std::complex<double>> full_spectrum(const Model& model, const Constr
   std::vector<MatrixR> couplings;
   Eigen::Index all = to_v.cols();
   for (const SharedRelaxation& each : relaxations) {
-    couplings.push_back(root_of(stiffness(each.moduli)));
+    if (!root_of(stiffness(each.moduli), couplings.emplace_back())) return {};
     all += couplings.back().rows();
   }
   const bool damped = model.has_viscous_part();
@@ -103,7 +106,9 @@ std::vector<std::complex<double>> full_spectrum(const Model& model, const Constr
     full.block(at, at, rows, rows).diagonal().setConstant(-static_cast<Real>(relaxations[k].rate));
     at += rows;
   }
-  const auto found = Eigen::EigenSolver<MatrixR>(full, false).eigenvalues();
+  const Eigen::EigenSolver<MatrixR> solved(full, false);
+  if (solved.info() != Eigen::Success) return {};
+  const auto& found = solved.eigenvalues();
   const Real largest = found.cwiseAbs().maxCoeff();
   std::vector<std::complex<double>> values;
   for (const std::complex<Real>& s : found) {

@@ -14,7 +14,7 @@
 //
 // Source   design: full operator where rates matter; Eigen's QR algorithm for the eigenvalues
 // Units    eigenvalues [1/s]
-// Errors   none: empty beyond `most`, or where nothing is free or stiff
+// Errors   none: empty beyond `most`, where QR iteration does not end, or where nothing is free or stiff
 #pragma once
 
 #include <complex>

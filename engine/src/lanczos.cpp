@@ -1,6 +1,7 @@
 #include "lanczos.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 #include <cmath>
 #include <cstdint>
 
@@ -20,6 +21,26 @@ double pseudo_random(std::uint64_t& state) {
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
   return static_cast<double>(static_cast<std::int64_t>(z ^ (z >> 31))) * 0x1p-63;
+}
+
+struct RitzPair {
+  double value = 0.0;
+  double last = 0.0;  // size of the vector's last component
+};
+
+// Largest eigenvalue of a tridiagonal matrix without negative ones.
+RitzPair largest_pair(const Eigen::Ref<const Vector>& diagonal, const Eigen::Ref<const Vector>& off) {
+  const Eigen::Index k = diagonal.size();
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
+  solver.computeFromTridiagonal(diagonal, off);
+  if (solver.info() == Eigen::Success)
+    return {solver.eigenvalues()[k - 1], std::abs(solver.eigenvectors()(k - 1, k - 1))};
+  // QR iteration does not always end where the entries span many decades, and leaves the values unsorted.
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(k, k);
+  dense.diagonal() = diagonal;
+  if (k > 1) dense.diagonal<1>() = dense.diagonal<-1>() = off;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(dense, Eigen::ComputeFullU);
+  return {svd.singularValues()[0], std::abs(svd.matrixU()(k - 1, 0))};
 }
 
 }  // namespace
@@ -74,10 +95,9 @@ RitzBound largest_frequency(const Model& model, const ConstraintSolver& solver,
     if (invariant || k == most_steps || (k >= fewest_steps && k % 4 == 0)) {
       const Eigen::Map<const Vector> diagonal(alphas.data(), k);
       const Eigen::Map<const Vector> off(betas.data(), k - 1);
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
-      ritz.computeFromTridiagonal(diagonal, off);
-      const double theta = std::max(0.0, ritz.eigenvalues()[k - 1]);
-      const double residual = 1e-12 * theta + beta * std::abs(ritz.eigenvectors()(k - 1, k - 1));
+      const RitzPair ritz = largest_pair(diagonal, off);
+      const double theta = std::max(0.0, ritz.value);
+      const double residual = 1e-12 * theta + beta * ritz.last;
       result.omega = std::sqrt(theta + residual);
       if (invariant || residual <= wanted_residual * theta) break;
     }
