@@ -18,7 +18,8 @@ namespace {
 constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t unasked_stride = 16;  // steps between looks at the energy where nobody asks for it
 
-const Scene& validated(const Scene& scene) {
+// Before anything is made of it.
+Scene validated(Scene scene) {
   validate(scene);
   return scene;
 }
@@ -36,7 +37,7 @@ struct Simulation::Impl {
   Impl(Scene&& s, const SimulationOptions& options)
       : plan(s.time.accuracy != 0.0 ? std::optional(plan_accuracy(s, options)) : std::nullopt),
         scene(decided(std::move(s), plan)),
-        model(validated(scene).mesh, regions_of(scene), assembly_for(scene, options.kernel)),
+        model(scene.mesh, regions_of(scene), assembly_for(scene, options.kernel)),
         asked(options),
         schedule(scene, model),
         spectrum(schedule.spectrum()),
@@ -117,7 +118,7 @@ struct Simulation::Impl {
 };
 
 Simulation::Simulation(Scene scene, SimulationOptions options)
-    : impl_(std::make_unique<Impl>(std::move(scene), options)) {}
+    : impl_(std::make_unique<Impl>(validated(std::move(scene)), options)) {}
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
