@@ -63,9 +63,10 @@ void draw_color_bar(Canvas& canvas, const ColorBar& bar, const Rect& area) {
                    std::round(area.x0 + 0.9f * text), std::round(area.y1)};
   Ticks ticks = bar_ticks(bar, bar_tick_count(canvas, strip.height()));
   thin_out(canvas, bar, std::max(strip.height(), 1.0f), ticks);
-  canvas.label({area.x0, area.y0 + 0.5f * normal}, Align::left, TextSize::normal, canvas.palette().ink, bar.name);
-  canvas.label({area.x0, area.y0 + normal + 0.7f * text}, Align::left, TextSize::small, canvas.palette().soft_ink,
-               bar_unit(bar, ticks));
+  canvas.label({area.x0, area.y0 + 0.5f * normal}, Align::left, TextSize::normal, canvas.palette().ink,
+               bar.name);
+  canvas.label({area.x0, area.y0 + normal + 0.7f * text}, Align::left, TextSize::small,
+               canvas.palette().soft_ink, bar_unit(bar, ticks));
   if (strip.height() < 2) return;
 
   const std::array<Rgb, 256> map = make_colormap();
@@ -83,8 +84,10 @@ void draw_color_bar(Canvas& canvas, const ColorBar& bar, const Rect& area) {
   for (std::size_t i = 0; i < ticks.at.size(); ++i) {
     const double t = spread ? (ticks.at[i] - bar.range[0]) / (bar.range[1] - bar.range[0]) : 0.0;
     const float y = std::round(strip.y1 - strip.height() * static_cast<float>(t));
-    canvas.line({strip.x1, y}, {strip.x1 + 0.3f * text, y}, canvas.palette().ink, std::max(1.0f, canvas.unit()));
-    canvas.text({strip.x1 + 0.5f * text, y}, Align::left, TextSize::small, canvas.palette().ink, ticks.labels[i]);
+    canvas.line({strip.x1, y}, {strip.x1 + 0.3f * text, y}, canvas.palette().ink,
+                std::max(1.0f, canvas.unit()));
+    canvas.text({strip.x1 + 0.5f * text, y}, Align::left, TextSize::small, canvas.palette().ink,
+                ticks.labels[i]);
   }
 }
 

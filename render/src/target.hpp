@@ -15,7 +15,7 @@ class Target {
   void bind() const;                    // draws go here from now on, over the whole picture
   void copy(const Target& from) const;  // all of its pixels; both have one size
   GLuint framebuffer() const { return framebuffer_.id(); }
-  void read(Image& out) const;          // waits for the drawing; `out` is resized where needed
+  void read(Image& out) const;  // waits for the drawing; `out` is resized where needed
 
  private:
   const Gl& gl_;

@@ -158,7 +158,8 @@ TEST(BadScene, MissingTablesAreNamed) {
       "[material]\nlambda_ela = 1\nmu_ela = 1\nlambda_vis = 1\nmu_vis = 1\ndensity = 1\n";
   EXPECT_THAT(message("[time]\nduration = 1\n"), HasSubstr("bad.toml:1: [mesh] is missing; needed: "));
   EXPECT_THAT(message(mesh.c_str()), HasSubstr("bad.toml:1: [material] is missing; needed: lambda_ela"));
-  EXPECT_THAT(message((mesh + material).c_str()), HasSubstr("bad.toml:1: [time] is missing; needed: duration"));
+  EXPECT_THAT(message((mesh + material).c_str()),
+              HasSubstr("bad.toml:1: [time] is missing; needed: duration"));
 }
 
 struct BadValue {

@@ -29,8 +29,8 @@ class Context {
   virtual void make_current() = 0;
 };
 
-// One that somebody else has made (a window's) and keeps alive. `find` gives the address of "glName", or null;
-// `make_current` is called before. Errors: also where the driver has less than OpenGL 3.3.
+// One that somebody else has made (a window's) and keeps alive. `find` gives the address of "glName", or
+// null; `make_current` is called before. Errors: also where the driver has less than OpenGL 3.3.
 using FunctionAddress = void (*)();
 std::unique_ptr<Context> adopt_context(const std::function<FunctionAddress(const char*)>& find,
                                        std::function<void()> make_current, std::string name, int width,
