@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "flat_rows.hpp"
 #include "loaded_edges.hpp"
 #include "node_scalars.hpp"
 #include "render/context.hpp"
@@ -53,20 +54,6 @@ std::array<double, 2> colour_range(const rheo::PictureSettings& picture, const R
   // One value everywhere: any width will do, and the picture is all of the lowest colour.
   if (!(range[1] > range[0])) range[1] = range[0] + (range[0] != 0.0 ? std::abs(range[0]) : 1.0);
   return range;
-}
-
-std::vector<double> flat(const std::vector<rheo::Vec2>& points) {
-  std::vector<double> out;
-  out.reserve(2 * points.size());
-  for (const rheo::Vec2& point : points) out.insert(out.end(), {point.x, point.y});
-  return out;
-}
-
-template <typename Rows>
-std::vector<int> flat_numbers(const Rows& rows) {
-  std::vector<int> out;
-  for (const auto& row : rows) out.insert(out.end(), row.begin(), row.end());
-  return out;
 }
 
 }  // namespace

@@ -216,6 +216,18 @@ BENCHMARK(step_element<rheo::SimdLevel::baseline>)->Name("step/element_baseline"
 BENCHMARK(step_element<rheo::SimdLevel::avx2>)->Name("step/element_avx2")->Apply(sizes);
 BENCHMARK(step_element<rheo::SimdLevel::avx512>)->Name("step/element_avx512")->Apply(sizes);
 
+// Steps of a body that stands at a state.
+void time_steps(benchmark::State& state, const Case& c, rheo::Body& body) {
+  const auto integrator = rheo::make_integrator(rheo::IntegratorKind::rk4, body.size());
+  for (auto _ : state) {
+    integrator->step(body, 0.0, c.step, body.state(), {});
+    body.impose_prescribed(0.0);
+  }
+  state.counters["ns/tri"] =
+      benchmark::Counter(1e-9 * c.scene.mesh.triangle_count(),
+                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
 template <rheo::Assembly assembly>
 void step_branches(benchmark::State& state) {
   const Case& c = case_of(static_cast<int>(state.range(0)));
@@ -228,14 +240,7 @@ void step_branches(benchmark::State& state) {
   std::vector<double> y(model.layout.size());
   std::copy(c.y.begin(), c.y.end(), y.begin());
   body->load(y);
-  const auto integrator = rheo::make_integrator(rheo::IntegratorKind::rk4, body->size());
-  for (auto _ : state) {
-    integrator->step(*body, 0.0, c.step, body->state(), {});
-    body->impose_prescribed(0.0);
-  }
-  state.counters["ns/tri"] =
-      benchmark::Counter(1e-9 * c.scene.mesh.triangle_count(),
-                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  time_steps(state, c, *body);
 }
 
 void branch_sizes(benchmark::internal::Benchmark* b) {
@@ -266,14 +271,7 @@ void step_regions(benchmark::State& state) {
   std::vector<double> y(model.layout.size(), 0.0);
   std::copy(c.y.begin(), c.y.begin() + static_cast<std::ptrdiff_t>(2 * model.layout.part), y.begin());
   body->load(y);
-  const auto integrator = rheo::make_integrator(rheo::IntegratorKind::rk4, body->size());
-  for (auto _ : state) {
-    integrator->step(*body, 0.0, c.step, body->state(), {});
-    body->impose_prescribed(0.0);
-  }
-  state.counters["ns/tri"] =
-      benchmark::Counter(1e-9 * c.scene.mesh.triangle_count(),
-                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  time_steps(state, c, *body);
 }
 
 BENCHMARK(step_regions<rheo::Assembly::matrices>)->Name("regions/csr")->Apply(sizes);

@@ -3,26 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flat_rows.hpp"
 #include "node_scalars.hpp"
 
 namespace app::view {
 namespace {
 
 constexpr double room_about = 0.18;  // of the body's larger side: to be pulled into
-
-std::vector<double> flat(const std::vector<rheo::Vec2>& points) {
-  std::vector<double> out;
-  out.reserve(2 * points.size());
-  for (const rheo::Vec2& point : points) out.insert(out.end(), {point.x, point.y});
-  return out;
-}
-
-template <typename Rows>
-std::vector<int> flat_numbers(const Rows& rows) {
-  std::vector<int> out;
-  for (const auto& row : rows) out.insert(out.end(), row.begin(), row.end());
-  return out;
-}
 
 // The next of few steps, so that a scale that grows does not flicker.
 double rounded_up(double x) {
