@@ -24,6 +24,7 @@ class AssembledBody : public Body {
   std::span<const StatePart> parts() const override { return parts_; }
   EnergySample sample(double t) override;
   std::span<const double> known_rate() const override;
+  void know_rate(double t) override { evaluate_state(t); }
   void reaction(double t, Vector& out) override;
   std::span<const double> multipliers(double t) override;
 

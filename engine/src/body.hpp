@@ -68,6 +68,11 @@ class Body : public LinearOperator {
   // Both stay alive until the next call; base: u where each hold began less its course there, 2n.
   virtual void enter(const Interval& interval, const Vector& base);
 
+  // The first so many numbers of the state are not the same to the bit after store() and load().
+  virtual std::size_t inexact_size() const { return 0; }
+  // Makes known_rate() known, as sample(t) does.
+  virtual void know_rate(double /*t*/) {}
+
   // After a step: eliminated degrees of freedom are where they are told to be at t, exactly.
   virtual void impose_prescribed(double t) = 0;
 

@@ -115,6 +115,20 @@ void Exponential::make_plan(double h) {
   if (cost(along_real) < cost(plan_)) plan_ = plan_along(Axis::real, h, real);
 }
 
+std::vector<double> Exponential::memory() const {
+  std::vector<double> memory{settings_.frequency, shortening_};
+  memory.insert(memory.end(), scale_.begin(), scale_.end());
+  return memory;
+}
+
+void Exponential::remember(std::span<const double> memory) {
+  assert(memory.size() == 2 + scale_.size());
+  settings_.frequency = memory[0];
+  shortening_ = memory[1];
+  std::copy(memory.begin() + 2, memory.end(), scale_.begin());
+  planned_for_ = 0.0;
+}
+
 double Exponential::forecast(double h) {
   make_plan(h);
   return static_cast<double>(plan_.first_look) * plan_.parts;

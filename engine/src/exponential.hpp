@@ -39,6 +39,9 @@ class Exponential final : public Integrator {
   void step(LinearOperator& op, double t, double h, std::span<double> y,
             std::span<const double> rate) override;
   bool converged() const override { return converged_; }
+  // The box as wide as it has become, the shortening, the sizes so far: plans follow from these.
+  std::vector<double> memory() const override;
+  void remember(std::span<const double> memory) override;
   std::string_view name() const override { return "exponential"; }
 
   // Evaluations that a step of h takes where its terms do not grow.

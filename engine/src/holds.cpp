@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rheo/io/bytes.hpp"
+
 namespace rheo {
 
 Holds::Holds(const Model& model, std::size_t columns)
@@ -11,6 +13,16 @@ Holds::Holds(const Model& model, std::size_t columns)
   for (Vector* v : {&base_, &jump_, &dv_, &momentum_, &nothing_}) v->setZero(part);
   target_.setZero(static_cast<Eigen::Index>(columns));
   impulse_ = target_;
+}
+
+void Holds::put(ByteWriter& out) const {
+  out.put_list(std::span(base_.data(), static_cast<std::size_t>(base_.size())));
+  out.put_list(owner_);
+}
+
+void Holds::get(ByteReader& in) {
+  in.get_list(std::span(base_.data(), static_cast<std::size_t>(base_.size())));
+  in.get_list(std::span(owner_));
 }
 
 bool Holds::change_owners(const Interval& next, const Hands* hands) {

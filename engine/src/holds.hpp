@@ -19,6 +19,9 @@
 
 namespace rheo {
 
+class ByteReader;
+class ByteWriter;
+
 class Holds {
  public:
   // `model` must outlive this. columns: general constraints that there will be.
@@ -28,6 +31,10 @@ class Holds {
 
   // Nobody holds anything.
   void forget() { std::fill(owner_.begin(), owner_.end(), -1); }
+
+  // Of a run that is to go on: bases and owners; all else is found anew at each passage.
+  void put(ByteWriter& out) const;
+  void get(ByteReader& in);
 
   // Two halves of one passage. First: who holds what from now on; whether some hold begins. hands: may be
   // null.

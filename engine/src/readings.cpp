@@ -1,5 +1,8 @@
 #include "readings.hpp"
 
+#include "kernels/flush_denormals.hpp"
+#include "rheo/io/bytes.hpp"
+
 namespace rheo {
 
 Readings::Readings(const Model& model, Body& body)
@@ -17,8 +20,27 @@ void Readings::loads_changed() {
   state_sampled_ = known;
 }
 
+void Readings::put(ByteWriter& out) const {
+  out.put(sample_);
+  out.put(sample_time_);
+  out.put(static_cast<std::uint64_t>(sampled_ ? 1 : 0));
+  out.put(static_cast<std::uint64_t>(state_sampled_ ? 1 : 0));
+}
+
+void Readings::get(ByteReader& in) {
+  state_changed();
+  state();  // before anything asks what it was last
+  sample_ = in.get<EnergySample>();
+  sample_time_ = in.get<double>();
+  sampled_ = in.get<std::uint64_t>() != 0;
+  state_sampled_ = in.get<std::uint64_t>() != 0;
+}
+
 std::span<double> Readings::state() {
-  if (!y_known_) body_.store(y_);
+  if (!y_known_) {
+    const FlushDenormals flush;  // whoever looks
+    body_.store(y_);
+  }
   y_known_ = true;
   return y_;
 }

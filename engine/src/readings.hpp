@@ -12,6 +12,9 @@
 
 namespace rheo {
 
+class ByteReader;
+class ByteWriter;
+
 class Readings {
  public:
   // Both must outlive this.
@@ -21,6 +24,11 @@ class Readings {
   void state_changed();
   // The state is the same, loads and constraints may be others.
   void loads_changed();
+
+  // Of a run that is to go on: the energies as they were worked out, on whichever side of an event.
+  void put(ByteWriter& out) const;
+  // The body has its state already.
+  void get(ByteReader& in);
 
   // In the mesh's order; the body takes it back from there by Body::load.
   std::span<double> state();

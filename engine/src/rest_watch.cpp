@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "rheo/io/bytes.hpp"
+
 namespace rheo {
 namespace {
 
@@ -63,6 +65,24 @@ RestWatch::RestWatch(std::span<const Material> materials, std::size_t size, doub
           springs_of(materials, &Moduli::mu, &MaxwellBranch::mu_rate, &MaxwellBranch::mu_ela)
               .slowest_time())),
       mark_(slowest_ > 0.0 ? size : 0) {}
+
+void RestWatch::put(ByteWriter& out) const {
+  out.put(u_top_);
+  out.put(v_top_);
+  out.put(static_cast<std::uint64_t>(marked_ ? 1 : 0));
+  if (!marked_) return;
+  out.put(mark_time_);
+  out.put_list(mark_);
+}
+
+void RestWatch::get(ByteReader& in) {
+  u_top_ = in.get<double>();
+  v_top_ = in.get<double>();
+  marked_ = in.get<std::uint64_t>() != 0;
+  if (!marked_) return;
+  mark_time_ = in.get<double>();
+  in.get_list(std::span(mark_));
+}
 
 bool RestWatch::look(double t, std::span<const double> u, std::span<const double> v, double omega) {
   if (slowest_ == 0.0) return false;

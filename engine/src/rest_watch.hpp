@@ -27,6 +27,9 @@
 
 namespace rheo {
 
+class ByteReader;
+class ByteWriter;
+
 class RestWatch {
  public:
   // size: of u. All memory is taken here.
@@ -34,6 +37,9 @@ class RestWatch {
 
   // Loads or constraints are others from now on.
   void restart() { marked_ = false; }
+  // Of a run that is to go on: what it has seen.
+  void put(ByteWriter& out) const;
+  void get(ByteReader& in);
   // omega: 0 without general constraints. Looks are at rising times.
   bool look(double t, std::span<const double> u, std::span<const double> v, double omega);
 

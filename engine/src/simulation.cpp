@@ -9,6 +9,8 @@
 #include "kernels/flush_denormals.hpp"
 #include "model.hpp"
 #include "rheo/deformation.hpp"
+#include "rheo/error.hpp"
+#include "rheo/io/bytes.hpp"
 #include "schedule.hpp"
 #include "stepping.hpp"
 
@@ -83,6 +85,32 @@ struct Simulation::Impl {
       add_mean(model.patches[part.region], now().state().data() + part.offset, memory);
     }
     return {memory.data(), static_cast<std::size_t>(memory.size())};
+  }
+  // y, in the mesh's order.
+  std::vector<double> state_from(const SavedState& saved) const {
+    const Layout& layout = model.layout;
+    assert(saved.u.size() == layout.part && saved.v.size() == layout.part);
+    std::vector<double> y(layout.size(), 0.0);
+    std::copy(saved.u.begin(), saved.u.end(), y.begin() + static_cast<std::ptrdiff_t>(layout.u()));
+    std::copy(saved.v.begin(), saved.v.end(), y.begin() + static_cast<std::ptrdiff_t>(layout.v()));
+    for (const BranchPart& branch : layout.branches) {
+      const bool lambda = branch.modulus == Modulus::lambda;
+      const auto own =
+          std::find_if(saved.parts.begin(), saved.parts.end(), [&](const SavedState::Part& part) {
+            return part.lambda == lambda && part.material == branch.region && part.branch == branch.number &&
+                   part.w.size() == branch.size;
+          });
+      if (own != saved.parts.end()) {
+        std::copy(own->w.begin(), own->w.end(), y.begin() + static_cast<std::ptrdiff_t>(branch.offset));
+        continue;
+      }
+      const auto& all = lambda ? saved.w_lambda : saved.w_mu;
+      if (branch.number >= all.size()) continue;
+      const std::vector<double>& w = all[branch.number];
+      model.patches[branch.region].for_each_dof(
+          [&](std::size_t i, std::size_t j) { y[branch.offset + i] = w[j]; });
+    }
+    return y;
   }
   void find_stress(std::span<double> out) {
     if (!model.has_several_materials()) {
@@ -190,28 +218,34 @@ SavedState Simulation::save() const {
 
 void Simulation::resume(const SavedState& saved) {
   const FlushDenormals flush;
-  const Layout& layout = impl_->model.layout;
-  assert(saved.u.size() == layout.part && saved.v.size() == layout.part);
-  std::vector<double> y(layout.size(), 0.0);
-  std::copy(saved.u.begin(), saved.u.end(), y.begin() + static_cast<std::ptrdiff_t>(layout.u()));
-  std::copy(saved.v.begin(), saved.v.end(), y.begin() + static_cast<std::ptrdiff_t>(layout.v()));
-  for (const BranchPart& branch : layout.branches) {
-    const bool lambda = branch.modulus == Modulus::lambda;
-    const auto own = std::find_if(saved.parts.begin(), saved.parts.end(), [&](const SavedState::Part& part) {
-      return part.lambda == lambda && part.material == branch.region && part.branch == branch.number &&
-             part.w.size() == branch.size;
-    });
-    if (own != saved.parts.end()) {
-      std::copy(own->w.begin(), own->w.end(), y.begin() + static_cast<std::ptrdiff_t>(branch.offset));
-      continue;
-    }
-    const auto& all = lambda ? saved.w_lambda : saved.w_mu;
-    if (branch.number >= all.size()) continue;
-    const std::vector<double>& w = all[branch.number];
-    impl_->model.patches[branch.region].for_each_dof(
-        [&](std::size_t i, std::size_t j) { y[branch.offset + i] = w[j]; });
-  }
-  impl_->stepping.resume(saved.t, y);
+  impl_->stepping.resume(saved.t, impl_->state_from(saved));
+}
+
+Snapshot Simulation::snapshot() const {
+  ByteWriter course;
+  course.put_text(kernel());
+  course.put(static_cast<std::uint64_t>(impl_->asked.energies ? 1 : 0));
+  course.put(step_bound());
+  impl_->stepping.put_course(course);
+  return {save(), course.take()};
+}
+
+void Simulation::restore(const Snapshot& snapshot) {
+  const FlushDenormals flush;
+  ByteReader course(snapshot.course, "its course");
+  const auto refuse = [](const std::string& text) { throw Error(Error::Kind::input, text); };
+  if (const std::string kernel_then = course.get_text(); kernel_then != kernel())
+    refuse("was made with kernel " + kernel_then + ", this run has " + std::string(kernel()) +
+           ": name that kernel");
+  if ((course.get<std::uint64_t>() != 0) != impl_->asked.energies)
+    refuse("was made with other columns of energy: both with --no-energies, or both without");
+  if (course.get<double>() != step_bound())
+    refuse("was made with another largest step: name the same, with the same build");
+  const SavedState& state = snapshot.state;
+  if (state.u.size() != impl_->model.layout.part || state.v.size() != state.u.size())
+    refuse("is of a mesh with another number of nodes: take one of this scene");
+  impl_->stepping.get_course(course, impl_->state_from(state));
+  course.expect_end();
 }
 
 std::span<const double> Simulation::u() const {
@@ -244,6 +278,7 @@ void Simulation::stress(std::span<double> out) const {
 }
 
 Energies Simulation::energies() const {
+  const FlushDenormals flush;  // as steps do: they may go on from these numbers
   const Stepping& stepping = impl_->stepping;
   const EnergySample& now = impl_->now().sample(time());
   const bool asked = impl_->asked.energies;
@@ -263,14 +298,17 @@ std::size_t Simulation::factor_bytes() const {
 }
 
 std::span<const double> Simulation::reaction() {
+  const FlushDenormals flush;
   return impl_->now().reaction(time());
 }
 
 std::span<const double> Simulation::external_force() {
+  const FlushDenormals flush;
   return impl_->now().external_force(time());
 }
 
 std::span<const double> Simulation::multipliers() {
+  const FlushDenormals flush;
   return impl_->body->multipliers(time()).first(impl_->scene.constraints.size());
 }
 

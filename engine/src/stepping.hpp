@@ -22,6 +22,9 @@
 
 namespace rheo {
 
+class ByteReader;
+class ByteWriter;
+
 class Stepping {
  public:
   // All must outlive this. stride: steps from one look at the energies to the next.
@@ -38,6 +41,11 @@ class Stepping {
 
   // Goes on from a state in the mesh's order at a time, as if the scene began there.
   void resume(double t, std::span<const double> y);
+
+  // All but the state of what the next calls hang on (Snapshot), and back with that state in the mesh's order.
+  // Not of one under hands.
+  void put_course(ByteWriter& out);
+  void get_course(ByteReader& in, std::span<const double> y);
 
   const StepLimits& limits() const { return limits_; }
   double largest_step() const { return largest_step_; }

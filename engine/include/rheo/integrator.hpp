@@ -93,6 +93,10 @@ class Integrator {
   // False where the last step missed the accuracy asked for, or could not be taken; the state is then short
   // of t + h.
   virtual bool converged() const { return true; }
+  // What it carries from step to step beside y, for one that is to go on to the same bits; as many numbers
+  // as always.
+  virtual std::vector<double> memory() const { return {}; }
+  virtual void remember(std::span<const double> /*memory*/) {}
   virtual std::string_view name() const = 0;
   // 0 where a step takes as many evaluations as its tolerance wants.
   virtual int order() const { return 0; }

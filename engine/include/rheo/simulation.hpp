@@ -91,6 +91,12 @@ struct SavedState {
   std::vector<Part> parts;
 };
 
+// All of a simulation, to the bit, between two calls of advance.
+struct Snapshot {
+  SavedState state;
+  std::string course;  // what else its next steps and energies hang on: bytes for restore() alone
+};
+
 // Ways to the same rheological force.
 
 enum class Kernel {
@@ -153,6 +159,12 @@ class Simulation {
   // or moves is held where it is then.
   SavedState save() const;
   void resume(const SavedState& saved);
+
+  // The same to the bit, energies, counters and all: for a simulation of the same scene with the same kernel.
+  // Not of one under hands (live.hpp) or one that has diverged. io/checkpoint.hpp keeps it in a file.
+  // Errors of restore: Error::Kind::input where it is another scene's or kernel's.
+  Snapshot snapshot() const;
+  void restore(const Snapshot& snapshot);
 
   std::span<const double> u() const;
   std::span<const double> v() const;

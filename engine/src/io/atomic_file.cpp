@@ -1,6 +1,7 @@
 #include "rheo/io/atomic_file.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <system_error>
@@ -38,10 +39,16 @@ void AtomicFile::write(std::string_view bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size()) throw cannot_write(path_, errno);
 }
 
-void AtomicFile::commit() {
+void AtomicFile::commit(Durability durability) {
   errno = 0;
-  const int closed = std::fclose(std::exchange(file_, nullptr));
-  int reason = closed == 0 ? 0 : errno;
+  int reason = 0;
+  // A file system without fsync (EINVAL) has nothing to wait for.
+  if (durability == Durability::on_disk &&
+      (std::fflush(file_) != 0 || (fsync(fileno(file_)) != 0 && errno != EINVAL)))
+    reason = errno;
+  int closed = std::fclose(std::exchange(file_, nullptr));
+  if (closed != 0) reason = errno;
+  if (reason != 0) closed = EOF;
   std::error_code error;
   if (closed == 0) {
     std::filesystem::rename(part_, path_, error);

@@ -29,6 +29,8 @@ class EdgeBody final : public Body {
   void load(std::span<const double> y) override;
   void store(std::span<double> y) const override;
   void enter(const Interval& interval, const Vector& base) override;
+  // Combined branches are kept without their moduli.
+  std::size_t inexact_size() const override { return form_.moduli && !elastic_ ? v() : 0; }
   void impose_prescribed(double t) override;
   void fma(double h, std::span<const double> x, std::span<const double> base, const Forcing& forcing,
            std::span<double> out, Result result) override;

@@ -40,6 +40,8 @@ class ParallelBody : public Body {
   void load(std::span<const double> y) override;
   void store(std::span<double> y) const override;
   void enter(const Interval& interval, const Vector& base) override;
+  // p is a sum of the others, in another order of its terms after a sweep.
+  std::size_t inexact_size() const override { return v(); }
   void impose_prescribed(double t) override;
   void fma(double h, std::span<const double> x, std::span<const double> base, const Forcing& forcing,
            std::span<double> out, Result result) override;

@@ -9,6 +9,9 @@
 
 namespace rheo {
 
+// What commit() waits for: a kill spares what the system has taken, a power cut only what is on the disk.
+enum class Durability { in_system, on_disk };
+
 class AtomicFile {
  public:
   explicit AtomicFile(std::filesystem::path path);
@@ -17,7 +20,7 @@ class AtomicFile {
   ~AtomicFile();  // without commit(): the part is removed, an older file of that name stays
 
   void write(std::string_view bytes);
-  void commit();
+  void commit(Durability durability = Durability::in_system);
 
  private:
   std::filesystem::path path_;
