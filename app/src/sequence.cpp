@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "body_labels.hpp"
 #include "flat_rows.hpp"
 #include "loaded_edges.hpp"
 #include "node_scalars.hpp"
@@ -39,6 +42,21 @@ struct LoadedFrame {
         .positions = positions, .scalar = scalar, .held = *loads->held, .arrows = arrows, .time = loads->t};
   }
 };
+
+// Of the shape that the scene asked for nearest to this output.
+std::string_view caption_at(const rheo::Scene& scene, double t) {
+  const rheo::PictureSettings& picture = scene.picture;
+  for (std::size_t i = 0; i < picture.captions.size(); ++i)
+    if (std::llround(picture.sheet[i] * scene.time.frame_rate) == std::llround(t * scene.time.frame_rate))
+      return picture.captions[i];
+  return {};
+}
+
+std::string all_captions(const rheo::Scene& scene) {
+  std::string all;
+  for (const std::string& caption : scene.picture.captions) all += caption;
+  return all;
+}
 
 double largest_traction(const Recorder& recorder, const LoadedEdges& edges) {
   double largest = 0.0;
@@ -103,7 +121,10 @@ struct Sequence::Impl {
                ? sheet_frames(recorder.count(), scene.time.frame_rate, event_times(scene), shapes, room)
                : frames_at(asked, recorder.count(), scene.time.frame_rate))
         frames.emplace_back(LoadedFrame{.bare = bare}).load(recorder, edges, k);
-      for (const LoadedFrame& frame : frames) views.push_back(frame.view());
+      for (const LoadedFrame& frame : frames) {
+        views.push_back(frame.view());
+        views.back().caption = caption_at(scene, views.back().time);
+      }
       image = picture.sheet(views);
     }
     const Timed timed(seconds.encode);
@@ -165,9 +186,7 @@ void Sequence::draw(const rheo::Scene& scene, const Recorder& recorder, const Hi
   const std::vector<int> triangles = flat_numbers(scene.mesh.triangles);
   const std::vector<int> boundary = flat_numbers(scene.mesh.edge_groups.at("boundary"));
   const std::vector<int> interfaces = interfaces_of(scene);
-  std::vector<render::BodyLabel> labels;
-  for (const rheo::BodyPart& body : scene.bodies)
-    labels.push_back({body.name, body.first_node, body.node_count});
+  const std::vector<render::BodyLabel> labels = body_labels(scene);
   const LoadedEdges edges(scene);
   const bool bare = nothing_to_colour(scene.picture, recorder);
   const ScalarText scalar = scalar_text(scene.picture.color);
@@ -176,6 +195,7 @@ void Sequence::draw(const rheo::Scene& scene, const Recorder& recorder, const Hi
                                   .boundary = boundary,
                                   .interfaces = interfaces,
                                   .labels = labels,
+                                  .letters = all_captions(scene),
                                   .title = scene.title,
                                   .scalar_name = bare ? "" : scalar.name,
                                   .scalar_unit = bare ? "" : scalar.unit,

@@ -12,8 +12,8 @@ MoveKey with_approach(const MoveKey& hand, Vec2 v0, double from, double grab_tim
   if (!approaches(hand.t, from, grab_time)) return hand;
   const double s = hand.t - from;
   const double left = 1.0 - s / grab_time;
-  const double place = s * left * left;
-  const double speed = left * (1.0 - 3.0 * s / grab_time);
+  const double place = s * left * left * left;
+  const double speed = left * left * (1.0 - 4.0 * s / grab_time);
   return {hand.t,
           {hand.u.x + v0.x * place, hand.u.y + v0.y * place},
           {hand.v.x + v0.x * speed, hand.v.y + v0.y * speed}};
@@ -48,11 +48,11 @@ void HandRecord::take(int episode, const Taken& taken) {
   if (episode != none && add(taken_, taken)) episodes_[episode].last = taken_.size();
 }
 
-int HandRecord::begin_push(double t, std::span<const Edge> edges) {
+int HandRecord::begin_push(double t, std::span<const Edge> edges, Vec2 traction) {
   const std::size_t first = edges_.size();
   for (const Edge& edge : edges) add(edges_, edge);
   const int episode = begin({Episode::Kind::push, t, forever, -1.0, first, edges_.size()});
-  add_key(episode, {t, {}, {}});
+  add_key(episode, {t, traction, {}});
   return episode;
 }
 

@@ -31,7 +31,7 @@ class HandRecord {
   static constexpr int none = -1;
   int begin_hold(double t);
   void take(int episode, const Taken& taken);
-  int begin_push(double t, std::span<const Edge> edges);
+  int begin_push(double t, std::span<const Edge> edges, Vec2 traction);
   // Keys of one episode rise; one at a time that is there already is the same and left out.
   void add_key(int episode, const MoveKey& key);
   void end(int episode, double t);

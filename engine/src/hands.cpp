@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "rheo/error.hpp"
 #include "rheo/limits.hpp"
@@ -116,6 +117,14 @@ bool Hands::pick(int handle, std::span<const int> nodes, std::span<const Edge> e
 bool Hands::push(int handle, Vec2 traction) {
   if (!usable(traction) || hands_[handle].edges.empty()) return false;
   hands_[handle].next_traction = traction;
+  return true;
+}
+
+bool Hands::press(int handle, Vec2 traction) {
+  Hand& hand = hands_[handle];
+  if (hand.pushing || !is_zero(hand.traction_b.p) || !push(handle, traction)) return false;
+  hand.traction_b.p = traction;
+  hand.pressed = !is_zero(traction);
   return true;
 }
 
@@ -233,11 +242,12 @@ bool Hands::begin_push(int handle, double t0, double t1) {
   hand.traction_a = {t0, hand.traction_b.p};
   hand.traction_b = {t1, hand.next_traction};
   const bool changes = !(hand.traction_a.p == hand.traction_b.p);
-  if (changes && !hand.pushing) {
+  if ((changes || hand.pressed) && !hand.pushing) {
     hand.pushing = true;
     pushing_.push_back(handle);
-    hand.push_episode = record_.begin_push(t0, hand.edges);
+    hand.push_episode = record_.begin_push(t0, hand.edges, hand.traction_a.p);
   }
+  const bool jumps = std::exchange(hand.pressed, false);
   if (changes) {
     record_.add_key(hand.push_episode, key(hand.traction_a));
     record_.add_key(hand.push_episode, key(hand.traction_b));
@@ -247,7 +257,7 @@ bool Hands::begin_push(int handle, double t0, double t1) {
     pushing_.erase(std::find(pushing_.begin(), pushing_.end(), handle));
     record_.end(hand.push_episode, t0);
   }
-  return differed || changes;
+  return differed || changes || jumps;
 }
 
 bool Hands::takes_now(int owner, double t) const {

@@ -26,6 +26,7 @@ class Hands {
   int count() const { return static_cast<int>(hands_.size()); }
   bool pick(int handle, std::span<const int> nodes, std::span<const Edge> edges);
   bool push(int handle, Vec2 traction);
+  bool press(int handle, Vec2 traction);
   int grab(int handle, double t, std::span<const double> v);
   bool drag(int handle, Vec2 displacement, const Vec2* velocity);
   bool release(int handle, double t);
@@ -73,6 +74,7 @@ class Hands {
     // Push.
     TractionKey traction_a, traction_b;
     Vec2 next_traction;
+    bool pressed = false;  // pushed at once since the last tick
     bool pushing = false;
     int push_episode = HandRecord::none;
   };

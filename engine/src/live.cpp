@@ -33,6 +33,10 @@ bool Live::push(int handle, Vec2 traction) {
   assert(handle >= 0 && handle < handle_count());
   return hands_->push(handle, traction);
 }
+bool Live::press(int handle, Vec2 traction) {
+  assert(handle >= 0 && handle < handle_count());
+  return hands_->press(handle, traction);
+}
 int Live::grab(int handle) {
   assert(handle >= 0 && handle < handle_count());
   return hands_->grab(handle, time(), simulation_->v());
@@ -90,6 +94,9 @@ Scene Live::session() const {
   Scene scene = simulation_->scene();
   hands_->append_to(scene, time());
   if (ticks_ > 0) scene.time.duration = time();
+  PictureSettings& picture = scene.picture;  // shapes of a time that the session has not come to
+  while (!picture.sheet.empty() && picture.sheet.back() > scene.time.duration) picture.sheet.pop_back();
+  if (!picture.captions.empty()) picture.captions.resize(picture.sheet.size());
   scene.time.frame_rate = rate_;
   if (std::isfinite(simulation_->step_bound())) scene.time.step = simulation_->step_bound();
   return scene;

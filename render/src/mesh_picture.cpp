@@ -74,7 +74,8 @@ struct MeshPicture::Impl {
         view{.range = layout.range, .bounds = body.bounds, .arrow_scale = layout.arrow_scale},
         target(gl, width, height),
         canvas(gl, width, height,
-               layout.title + layout.scalar_name + layout.scalar_unit + body.labels.characters()),
+               layout.title + layout.letters + layout.scalar_name + layout.scalar_unit +
+                   body.labels.characters()),
         pass(gl, layout, body.boundary, width, height),
         arrows(body.boundary.edges, layout.triangles, {layout.rest.begin(), layout.rest.end()}) {}
 
@@ -322,13 +323,15 @@ Image MeshPicture::sheet(std::span<const MeshFrame> frames) {
   m.begin();
   const Impl::Parts p = m.parts();
   std::vector<double> times;
+  std::vector<std::string_view> captions;
   std::vector<TractionArrows::Arrow> arrows;
   for (const MeshFrame& frame : frames) {
     times.push_back(frame.time);
+    captions.push_back(frame.caption);
     const std::vector<TractionArrows::Arrow> more = m.arrows.arrows(frame, m.body.arrow_scale);
     arrows.insert(arrows.end(), more.begin(), more.end());
   }
-  const SheetLayout layout = layout_sheet(m.canvas, p.body, m.body.bounds, times, arrows,
+  const SheetLayout layout = layout_sheet(m.canvas, p.body, m.body.bounds, times, captions, arrows,
                                           m.body.labels.room(m.canvas, TextSize::small));
   const std::vector<std::vector<Rect>> labels = m.sheet_labels(layout, frames);
   for (std::size_t i = 0; i < frames.size(); ++i) {

@@ -106,16 +106,30 @@ class Sheet {
 }  // namespace
 
 SheetLayout layout_sheet(const Canvas& canvas, const Rect& area, const std::array<double, 4>& bounds,
-                         std::span<const double> times, std::span<const TractionArrows::Arrow> arrows,
-                         float label_room) {
+                         std::span<const double> times, std::span<const std::string_view> captions,
+                         std::span<const TractionArrows::Arrow> arrows, float label_room) {
   const Sheet sheet(canvas, area, bounds, arrows, label_room);
-  std::vector<std::string> whole;
-  for (const double t : times) whole.push_back(time_text(t));
-  const Sheet::Choice with_name = sheet.choose(std::move(whole));
-  const Sheet::Choice brief = sheet.choose(short_times(times));
-  const bool short_is_better = (with_name.cramped && !brief.cramped) ||
-                               (with_name.cramped == brief.cramped && brief.scale > 1.1 * with_name.scale);
-  return sheet.layout(short_is_better ? brief : with_name);
+  std::vector<std::string> whole, captioned, brief = short_times(times), brief_captioned = brief;
+  bool has_captions = false;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    whole.push_back(time_text(times[i]));
+    captioned.push_back(whole.back());
+    if (captions[i].empty()) continue;
+    has_captions = true;
+    captioned.back().append("   ").append(captions[i]);
+    brief_captioned[i].append("   ").append(captions[i]);
+  }
+  const auto better = [&](std::vector<std::string> with_name, std::vector<std::string> without) {
+    const Sheet::Choice a = sheet.choose(std::move(with_name)), b = sheet.choose(std::move(without));
+    const bool short_is_better =
+        (a.cramped && !b.cramped) || (a.cramped == b.cramped && b.scale > 1.1 * a.scale);
+    return short_is_better ? b : a;
+  };
+  if (has_captions) {
+    const Sheet::Choice choice = better(std::move(captioned), std::move(brief_captioned));
+    if (!choice.cramped) return sheet.layout(choice);
+  }
+  return sheet.layout(better(std::move(whole), std::move(brief)));
 }
 
 int sheet_room(int width, int height) {

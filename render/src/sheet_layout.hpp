@@ -2,7 +2,7 @@
 //
 // All shapes have one scale: the largest that any grid of equal cells gives. A cell is a line for the time
 // and below it the room for the shape with its hatches and arrows, which are shorter in small cells. Times
-// are short ("0.25 s") where that makes the shapes larger.
+// are short ("0.25 s") where that makes the shapes larger; captions are left out where not all have room.
 //
 // Units    pixels; bounds [m], times [s]
 // Errors   none
@@ -11,6 +11,7 @@
 #include <array>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "camera.hpp"
@@ -23,7 +24,7 @@ struct SheetLayout {
   struct Panel {
     Rect cell;
     Camera camera;
-    std::string time;  // empty where cells are too narrow for every time
+    std::string time;  // with the caption; empty where cells are too narrow for every time
     Point time_at;     // its left end
   };
   std::vector<Panel> panels;
@@ -32,10 +33,10 @@ struct SheetLayout {
   float label_gap = 0;  // between a body and its name
 };
 
-// `bounds` as usable_bounds() makes them; `arrows` of all frames; `label_room`: height below
-// a shape for the names of its bodies.
+// `captions`: one a time, may be empty; `bounds` as usable_bounds() makes them; `arrows` of all frames;
+// `label_room`: height below a shape for the names of its bodies.
 SheetLayout layout_sheet(const Canvas& canvas, const Rect& area, const std::array<double, 4>& bounds,
-                         std::span<const double> times, std::span<const TractionArrows::Arrow> arrows,
-                         float label_room = 0);
+                         std::span<const double> times, std::span<const std::string_view> captions,
+                         std::span<const TractionArrows::Arrow> arrows, float label_room = 0);
 
 }  // namespace render

@@ -87,6 +87,9 @@ TEST_F(Bodies, TheSheetShowsTheTimesThatTheSceneAsksFor) {
   EXPECT_EQ(rheo({"render", "beam.toml", "-o", "r"}).exit_code, 0);
   write("bad.toml", small_beam_with("[render]", "[render]\nsheet = [0.2, 0.1]"));
   expect_failure(rheo({"check", "bad.toml"}), 2, {"bad.toml:", "[render] sheet", "strictly rising"});
+  write("captions.toml", small_beam_with("[render]", "[render]\nsheet = [0.0, [0.2, \"pulled\"], [0.5]]"));
+  expect_failure(rheo({"check", "captions.toml"}), 2,
+                 {"captions.toml:", "[render] sheet", "[time, \"caption\"]"});
   write("late.toml", small_beam_with("[render]", "[render]\nsheet = [0.0, 0.6]"));
   expect_failure(rheo({"check", "late.toml"}), 2, {"late.toml:", "[render] sheet", "0.5 s"});
 }

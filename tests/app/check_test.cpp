@@ -168,6 +168,25 @@ TEST_F(Check, KnowsNoStableLimitOfTheExponentialIntegrator) {
   EXPECT_THAT(row(finished.out, "cost"), HasSubstr("forecast"));
 }
 
+// A relaxation time of 1e-5 s where vibrations would allow steps of a hundredth of a second.
+TEST_F(Check, AdvisesWhereRelaxationAloneMakesStepsShort) {
+  const std::string fast =
+      small_beam_with("lambda_vis = 4.0\nmu_vis = 2.0", "lambda_vis = 7e-5\nmu_vis = 5e-5");
+  write("fast.toml", fast);
+  const Finished finished = rheo({"check", "fast.toml"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_THAT(row(finished.out, "advice"),
+              testing::AllOf(HasSubstr("relaxation alone makes explicit steps so short"),
+                             HasSubstr("--integrator exponential or implicit")));
+  EXPECT_THAT(rheo({"check", "fast.toml", "--integrator", "exponential"}).out,
+              testing::Not(HasSubstr("advice")));
+  write("viscous.toml", small_beam() + "\n[material.viscous]\nlambda = 10.0\nmu = 5.0\n");
+  EXPECT_THAT(row(rheo({"check", "viscous.toml", "--duration", "5"}).out, "advice"),
+              HasSubstr("viscous part or relaxation alone"));
+  write("beam.toml", small_beam());
+  EXPECT_THAT(rheo({"check", "beam.toml"}).out, testing::Not(HasSubstr("advice")));
+}
+
 TEST_F(Check, TellsTheImplicitIntegratorsFactor) {
   write("beam.toml", small_beam());
   const Finished finished = rheo({"check", "beam.toml", "--integrator", "implicit", "--frame-rate", "10"});

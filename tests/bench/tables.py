@@ -4,11 +4,14 @@
     python3 tests/bench/tables.py [--build build/release] [--repetitions 5] [--out out/tables]
                                   [--max-triangles 1000000] [--budget 120]
                                   [--scenes beam,beam_fine] [--refined 1000,10000] [--threads N]
+                                  [--only steps,branches,skips,graded,pictures,frames,integrators]
 
 A step of the kernels against the baseline and, where it was built, the peer; bytes and flops of a step against
-what the machine was measured to do; the integrators by `rheo bench` on some shipped scenes and on the paper's beam,
-refined and jittered, lumped, pulled for 1 of 2 s; what each takes to reach 1e-3, 1e-5 and 1e-9. Medians of interleaved
-repetitions, with their spread. The machine should do nothing else meanwhile: the load at the start is printed.
+what the machine was measured to do; steps of several branches and materials; what skipping saves; the implicit
+integrator on a graded mesh; pictures a second; frame times; the integrators by `rheo bench` on some shipped scenes
+and on the paper's beam, refined and jittered, lumped, pulled for 1 of 2 s; what each takes to reach 1e-3, 1e-5 and
+1e-9. Medians of interleaved repetitions, with their spread. The machine should do nothing else meanwhile: the load at
+the start is printed.
 """
 
 import argparse
@@ -20,6 +23,8 @@ import random
 import statistics
 import subprocess
 import sys
+
+import side_tables
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 
@@ -66,6 +71,9 @@ def median_and_spread(values):
 
 def nanoseconds(records):
     return median_and_spread([r["ns/tri"] for r in records])
+
+
+TABLES = ["steps", "branches", "skips", "graded", "pictures", "frames", "integrators"]
 
 
 def size_name(triangles):
@@ -346,6 +354,38 @@ def print_integrators(arguments):
             print(f"\n![Run time against error]({folder / 'bench.png'})")
 
 
+def print_step_tables(arguments, bench, sizes):
+    table = by_kernel(run_benchmark(bench / "rheo_bench_step", f"^(step2?|start)/.*/({sizes})/|^start/({sizes})/",
+                                    arguments))
+    peer = bench / "rheo_bench_peer"
+    if peer.exists():
+        table.update(by_kernel(run_benchmark(peer, f"/({sizes})/", arguments)))
+    table = in_order(table)
+    start = table.pop("start", {})
+    print_steps(table)
+    print("\nThe baseline is textbook code and has no threads; nor has the peer.")
+    print_start(start, table.get("step/edge", {}))
+    if peer.exists():
+        print_peer(table)
+    else:
+        print("\nThe peer was not built: install libsundials-dev, then configure and build again.")
+    print_roofline(table, run_benchmark(bench / "rheo_bench_roofline", ".", arguments))
+
+
+def print_skip_table(arguments, bench):
+    found = run_benchmark(bench / "rheo_bench_skip", ".", arguments)
+    render = bench / "rheo_bench_render"
+    if render.exists():
+        found.update(run_benchmark(render, "DrawAndReadBack.*triangles:10000/height:720", arguments))
+    side_tables.print_skips(found)
+
+
+def print_branch_tables(arguments, bench, sizes):
+    step = bench / "rheo_bench_step"
+    side_tables.print_branches(run_benchmark(step, f"^branches/.*/({sizes})/", arguments))
+    side_tables.print_regions(run_benchmark(step, f"^regions/.*/({sizes})/", arguments))
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=pathlib.Path, default=TOP / "build" / "release")
@@ -356,28 +396,34 @@ def main():
     parser.add_argument("--scenes", default="beam,beam_fine", help="names of shipped scenes")
     parser.add_argument("--refined", default="1000,10000", help="triangles of the refined beams")
     parser.add_argument("--threads", type=int, help="of `rheo bench`")
+    parser.add_argument("--only", default="", help="some of " + ", ".join(TABLES) + "; default: all")
+    parser.add_argument("--frame-options", default="--seconds 2", help="of rheo_bench_frame_time")
     parser.add_argument("--out", type=pathlib.Path, default=TOP / "out" / "tables", help="folder of the pictures")
     arguments = parser.parse_args()
 
+    only = arguments.only.split(",") if arguments.only else TABLES
+    for name in only:
+        if name not in TABLES:
+            sys.exit(f"--only {name}: unknown; {', '.join(TABLES)} are allowed")
     bench = arguments.build / "tests" / "bench"
     if not (bench / "rheo_bench_step").exists():
         sys.exit(f"{bench}/rheo_bench_step is missing: build first (cmake --build --preset release)")
     print(f"{machine()}. Medians of {arguments.repetitions} interleaved runs, (slowest - fastest) / median in brackets.")
     sizes = "|".join(str(s) for s in (1000, 10000, 100000, 1000000) if s <= arguments.max_triangles)
-    table = by_kernel(run_benchmark(bench / "rheo_bench_step", f"/({sizes})/", arguments))
-    peer = bench / "rheo_bench_peer"
-    if peer.exists():
-        table.update(by_kernel(run_benchmark(peer, f"/({sizes})/", arguments)))
-    table = in_order(table)
-    start = table.pop("start", {})
-    print_steps(table)
-    print_start(start, table.get("step/edge", {}))
-    if peer.exists():
-        print_peer(table)
-    else:
-        print("\nThe peer was not built: install libsundials-dev, then configure and build again.")
-    print_roofline(table, run_benchmark(bench / "rheo_bench_roofline", ".", arguments))
-    print_integrators(arguments)
+    if "steps" in only:
+        print_step_tables(arguments, bench, sizes)
+    if "branches" in only:
+        print_branch_tables(arguments, bench, sizes)
+    if "skips" in only:
+        print_skip_table(arguments, bench)
+    if "graded" in only:
+        side_tables.print_graded(run_benchmark(bench / "rheo_bench_integrate", ".", arguments))
+    if "pictures" in only and (bench / "rheo_bench_render").exists():
+        side_tables.print_pictures(run_benchmark(bench / "rheo_bench_render", "^Sequence", arguments))
+    if "frames" in only and (bench / "rheo_bench_frame_time").exists():
+        side_tables.print_frames(bench / "rheo_bench_frame_time", arguments.frame_options.split())
+    if "integrators" in only:
+        print_integrators(arguments)
 
 
 if __name__ == "__main__":

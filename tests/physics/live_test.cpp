@@ -57,6 +57,35 @@ TEST(Live, IsItsSessionWrittenAsAScene) {
   }
 }
 
+// A traction that is there at once, then eased off, is a scene's whose first key is not zero.
+TEST(Live, APressActsFromItsFirstMomentOn) {
+  const LiveSettings settings = live_settings(live_block(Mass::lumped));
+  Live live(live_block(Mass::lumped), settings);
+  const auto tick = [&](int count) {
+    for (int k = 0; k < count; ++k) ASSERT_FALSE(live.tick());
+  };
+  tick(10);
+  EXPECT_TRUE(live.press(push_handle, {5.0, -20.0}));
+  tick(1);
+  EXPECT_EQ(live.traction(push_handle), (Vec2{5.0, -20.0}));
+  EXPECT_FALSE(live.press(push_handle, {1.0, 0.0})) << "it pushes already";
+  tick(9);
+  live.push(push_handle, {});
+  tick(20);
+  Scene by_hand = live_block(Mass::lumped);
+  by_hand.tractions.push_back(
+      {by_hand.mesh.edge_groups.at("top"),
+       {{10 / 250.0, {5.0, -20.0}}, {20 / 250.0, {5.0, -20.0}}, {21 / 250.0, {0.0, 0.0}}},
+       {10 / 250.0, 22 / 250.0},
+       "press"});
+  by_hand.time.frame_rate = settings.rate;
+  by_hand.time.duration = 40 / settings.rate;
+  expect_same_bits(live.simulation(), run_again(by_hand, settings.simulation));
+  const Scene session = live.session();
+  EXPECT_EQ(session.tractions.back().keys.front().p, (Vec2{5.0, -20.0}));
+  expect_same_bits(live.simulation(), run_again(session, settings.simulation));
+}
+
 TEST(Live, TheSameBitsOnTwoThreads) {
   // The second's longer blocks keep two threads busy on a larger mesh only.
   for (const auto& [kernel, nx, ny] :

@@ -99,6 +99,23 @@ TEST_F(MeshPictures, SheetLeavesRoomForArrowsOnlyWhereTheyAre) {
   EXPECT_GT(right, bare - 45) << "on one side only";
 }
 
+TEST_F(MeshPictures, SheetShowsCaptionsWhereAllHaveRoom) {
+  const Body body = bodies::rectangle(1, 0.5, 3, 2);
+  render::MeshPicture picture(*context_, coloured(body));
+  const auto texts_of = [&](std::size_t count) {
+    std::vector<render::MeshFrame> frames(count, body.frame());
+    frames[0].caption = "(a) natural";
+    frames[1].caption = "(b) pushed";
+    picture.sheet(frames);
+    std::vector<std::string> texts;
+    for (const render::TextBox& text : picture.texts()) texts.push_back(text.text);
+    return texts;
+  };
+  EXPECT_THAT(texts_of(4), testing::IsSupersetOf(
+                               {testing::EndsWith("   (a) natural"), testing::EndsWith("   (b) pushed")}));
+  EXPECT_THAT(texts_of(60), testing::Not(testing::Contains(testing::HasSubstr("pushed"))));
+}
+
 TEST_F(MeshPictures, SheetOfNothingAndOfManyFrames) {
   const Body body = bodies::rectangle(1, 0.5, 3, 2);
   render::MeshPicture picture(*context_, coloured(body));

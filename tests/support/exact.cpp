@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "rheo/simulation.hpp"
+#include "support/dense_exponential.hpp"
 
 namespace rheo::test {
 namespace {
@@ -246,6 +246,7 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
   VectorXd y = VectorXd::Zero(size);
   VectorXd base = VectorXd::Zero(d);  // u at the beginning of the hold minus the key then
   std::vector<const void*> holder(d, nullptr);
+  VectorXd slope_before = VectorXd::Zero(d);  // b' of a hold at the end of the piece before
   std::vector<ExactState> result;
   for (std::size_t i = 0;; ++i) {
     const double t0 = breaks[i];
@@ -257,10 +258,12 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
     struct Row {
       VectorXd a;
       std::array<double, 6> b;
+      double jump;  // what A^T v changes by at t0
     };
     std::vector<Row> rows;
     std::vector<const void*> now(d, nullptr);
     bool begins = i == 0;
+    VectorXd slope_after = VectorXd::Zero(d);
     const auto hold = [&](const std::vector<int>& nodes, Axis axis, const void* who, const Move* move) {
       for (int node : nodes) {
         for (int k = 0; k < 2; ++k) {
@@ -269,13 +272,17 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
           now[dof] = who;
           std::array<double, 6> b{};
           if (move) b = course(*move, k, t0, inside);
+          // A hold that begins takes A^T v to b'. One that goes on changes it by the jump of its b' alone:
+          // what violates it decays by Baumgarte's equation.
+          double jump = b[1] - slope_before[dof];
           if (holder[dof] != who) {
             base[dof] = y[dof] - b[0];
-            begins = true;
+            jump = b[1] - y[d + dof];
           }
-          if (move && move->profile != Profile::smooth) begins = true;  // b' may jump at any key
+          if (jump != 0.0) begins = true;
           b[0] += base[dof];
-          rows.push_back({VectorXd::Unit(d, dof), b});
+          rows.push_back({VectorXd::Unit(d, dof), b, jump});
+          slope_after[dof] = move ? course(*move, k, t1, inside)[1] : 0.0;
         }
       }
     };
@@ -286,24 +293,24 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
       if (active(m.window, inside)) hold(m.nodes, m.axis, &m, &m);
     }
     holder = now;
+    slope_before = slope_after;
     const bool eliminates = s.time.constraints == ConstraintMethod::automatic;
     const std::size_t held = rows.size();
     for (const Constraint& c : s.constraints) {
       VectorXd a = VectorXd::Zero(d);
       for (const ConstraintTerm& term : c.terms)
         a[2 * term.node + (term.axis == Axis::y)] += term.coefficient;
-      rows.push_back({a, {c.value, 0, 0, 0, 0, 0}});
+      rows.push_back({a, {c.value, 0, 0, 0, 0, 0}, i == 0 ? -a.dot(y.segment(d, d)) : 0.0});
     }
     const auto count = static_cast<Eigen::Index>(rows.size());
     MatrixXd a(d, count);
     for (Eigen::Index k = 0; k < count; ++k) a.col(k) = rows[k].a;
 
-    if (begins && count > 0) {  // v+ = v + M^-1 A L, A^T v+ = b'
-      VectorXd slope(count);
-      for (Eigen::Index k = 0; k < count; ++k) slope[k] = rows[k].b[1];
+    if (begins && count > 0) {  // v+ = v + M^-1 A L, A^T (v+ - v) = jump
+      VectorXd jump(count);
+      for (Eigen::Index k = 0; k < count; ++k) jump[k] = rows[k].jump;
       const MatrixXd y_a = mass_.ldlt().solve(a);
-      y.segment(d, d) +=
-          y_a * (a.transpose() * y_a).fullPivLu().solve(slope - a.transpose() * y.segment(d, d));
+      y.segment(d, d) += y_a * (a.transpose() * y_a).fullPivLu().solve(jump);
     }
     if (eliminates) {  // held exactly: no drift to correct, whatever rounding says
       for (std::size_t k = 0; k < held; ++k) {
@@ -395,9 +402,9 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
     unit.segment(2 * d, size - 2 * d).setConstant(modulus);
     const double forcing = full.block(d, size, d, extra).cwiseAbs().maxCoeff() / (frequency * frequency);
     if (forcing > 0.0) unit.head(size) *= forcing;
-    full = unit.cwiseInverse().asDiagonal() * full * unit.asDiagonal();
-    y = unit.head(size).asDiagonal() *
-        ((length * full).exp().topRows(size) * unit.cwiseInverse().cwiseProduct(z)).eval();
+    full = length * (unit.cwiseInverse().asDiagonal() * full * unit.asDiagonal());
+    exponentiate(full.data(), static_cast<int>(full.rows()));
+    y = unit.head(size).asDiagonal() * (full.topRows(size) * unit.cwiseInverse().cwiseProduct(z)).eval();
   }
 }
 

@@ -1,6 +1,7 @@
 // A body under the window's hand, tick by tick.
 #include "view/core.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -109,7 +110,7 @@ TEST(ViewCore, AnotherMaterialGoesOnFromTheSameShape) {
   EXPECT_EQ(display.hand.hold, Hold::push);
   EXPECT_NEAR(display.hand.traction.x, 300.0, 1.0);
   // Its books go on; what the other stiffness makes of the same residual forces is not the hand's work.
-  EXPECT_NEAR(display.energies.work, books.energies.work, 0.05 * books.energies.work);  // of one tick
+  EXPECT_NEAR(display.energies.work, books.energies.work, 0.01 * books.energies.work);  // of one tick
   EXPECT_GE(display.energies.dissipated, books.energies.dissipated);
   EXPECT_NEAR(app::view::drift_of(display), 0.0, 1e-6 * display.energies.work);
   EXPECT_FALSE(core.session());
@@ -138,22 +139,20 @@ TEST(ViewCore, ComesToRestAndWakesUp) {
   EXPECT_LT(ticks, 20000);
 }
 
-// The session written as a scene file and read again gives the same bits with the same step.
-TEST(ViewCore, ASessionReadFromItsTextRepeatsToTheBit) {
-  rheo::Scene scene = block();
-  rheo::Traction& pulse = scene.tractions.emplace_back();
-  pulse.edges = scene.mesh.edge_groups.at("top");
-  pulse.keys = {{0.0, {0, 0}}, {0.1, {0, -50}}, {0.2, {0, 0}}};
+// A session of pushes and a grab, written as a scene file and read again, gives the same bits with the same
+// step.
+void expect_session_repeats(rheo::Scene scene, const std::vector<rheo::Edge>& pushed,
+                            const std::vector<rheo::Edge>& held) {
   Core core(std::move(scene), {});
   run(core, 20);
-  ASSERT_TRUE(core.begin(Hold::push, right_of(core.scene())));
+  ASSERT_TRUE(core.begin(Hold::push, pushed));
   core.aim({200.0, -80.0}, 0.7);
   run(core, 60);
   core.aim({-100.0, 30.0}, 0.7);
   run(core, 40);
   core.let_go();
   run(core, 30);
-  ASSERT_TRUE(core.begin(Hold::grab, core.scene().mesh.edge_groups.at("top")));
+  ASSERT_TRUE(core.begin(Hold::grab, held));
   core.aim({0.001, 0.002}, 1.0);
   run(core, 50);
   core.let_go();
@@ -175,6 +174,68 @@ TEST(ViewCore, ASessionReadFromItsTextRepeatsToTheBit) {
   EXPECT_TRUE(same(again.w_mu(), live.w_mu()));
   EXPECT_EQ(again.counters().steps, live.counters().steps);
   EXPECT_EQ(rheo::scene_text(again.scene()), text);
+}
+
+TEST(ViewCore, ASessionReadFromItsTextRepeatsToTheBit) {
+  rheo::Scene scene = block();
+  rheo::Traction& pulse = scene.tractions.emplace_back();
+  pulse.edges = scene.mesh.edge_groups.at("top");
+  pulse.keys = {{0.0, {0, 0}}, {0.1, {0, -50}}, {0.2, {0, 0}}};
+  const auto pushed = right_of(scene), held = scene.mesh.edge_groups.at("top");
+  expect_session_repeats(std::move(scene), pushed, held);
+}
+
+TEST(ViewCore, ASessionOfSeveralBodiesAndMaterialsRepeatsToTheBit) {
+  const char* const body = R"(
+[[body]]
+name = "{}"
+position = [{}, 0.0]
+[body.mesh]
+shape = "rectangle"
+size = [0.1, 0.05]
+nodes = [9, 5]
+[body.material]
+lambda_ela = {}
+mu_ela = 1500
+lambda_vis = 800
+mu_vis = 300
+density = 1000
+[[body.fix]]
+edges = "bottom"
+[[body.region]]
+disk = [0.05, 0.025, 0.015]
+[body.region.material]
+density = 1200
+[body.region.material.elastic]
+lambda = 2000
+mu = 900
+[body.region.material.viscous]
+lambda = 3
+mu = 2
+[[body.region.material.maxwell]]
+lambda_ela = 3000
+mu_ela = 1000
+time = 0.1
+[[body.region.material.maxwell]]
+lambda_ela = 1000
+mu_ela = 3000
+time = 0.01
+)";
+  const std::string text = fmt::format(fmt::runtime(body), "left", 0.0, 4000) +
+                           fmt::format(fmt::runtime(body), "right", 0.2, 9000) +
+                           "[time]\nduration = 5\n[render]\nsheet = [0.0, [1.5, \"half\"]]\n";
+  rheo::Scene scene = rheo::parse_scene(text, "bodies.toml", ".");
+  ASSERT_EQ(scene.regions.size(), 2u);  // the two disks are of one material
+  std::vector<rheo::Edge> pushed, held;
+  for (const rheo::Edge& e : scene.mesh.edge_groups.at("boundary")) {
+    const rheo::Vec2 p = scene.mesh.points[static_cast<std::size_t>(e[0])],
+                     q = scene.mesh.points[static_cast<std::size_t>(e[1])];
+    if (p.x == 0.1 && q.x == 0.1) pushed.push_back(e);
+    if (p.x > 0.15 && p.y == 0.05 && q.y == 0.05) held.push_back(e);
+  }
+  ASSERT_EQ(pushed.size(), 4u);
+  ASSERT_EQ(held.size(), 8u);
+  expect_session_repeats(std::move(scene), pushed, held);
 }
 
 TEST(ViewCore, ABodyThatDivergesIsKeptAndSaysSo) {

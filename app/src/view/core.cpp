@@ -18,6 +18,8 @@ constexpr double rest_after = 0.5;   // [s]
 // What is slower than this cannot be seen: a colour step is 4e-3 of the largest w, a pixel 1e-3 of the size.
 constexpr double still_place = 1e-6;  // of the body's size, in look_every
 constexpr double still_w = 3e-5;      // of the largest w, likewise
+constexpr double most_load = 0.25;    // of a processor, beside which there is the drawing
+constexpr double quick_share = 0.9;   // of the stable step, where that is more
 
 double size_of(const rheo::Mesh& mesh) {
   double low_x = rheo::forever, low_y = rheo::forever, high_x = -rheo::forever, high_y = -rheo::forever;
@@ -69,6 +71,13 @@ void magnitudes(std::span<const double> field, std::vector<double>& out) {
     out[i] = std::sqrt(field[2 * i] * field[2 * i] + field[2 * i + 1] * field[2 * i + 1]);
 }
 
+// What the automatic step would take of a processor at the speed of real time, by a step's usual price.
+double load_of(const rheo::Simulation& simulation, double rate) {
+  constexpr double seconds_a_triangle = 15e-9;
+  return std::max(rate, 1.0 / simulation.step_bound()) * simulation.scene().mesh.triangle_count() *
+         seconds_a_triangle;
+}
+
 // Settings that a run to its end has and a window does without.
 rheo::Scene for_hands(rheo::Scene scene) {
   scene.time.accuracy = 0.0;
@@ -102,9 +111,16 @@ rheo::LiveSettings Core::live_settings(const rheo::Scene& scene, const CoreSetti
 void Core::start(rheo::Scene scene, const rheo::SavedState* saved) {
   rheo::validate(scene);
   auto shared = std::make_shared<const rheo::Scene>(std::move(scene));
-  const rheo::LiveSettings settings = live_settings(*shared, settings_);
-  auto live = saved ? std::make_unique<rheo::Live>(*shared, settings, *saved)
-                    : std::make_unique<rheo::Live>(*shared, settings);
+  rheo::LiveSettings settings = live_settings(*shared, settings_);
+  const auto make = [&] {
+    return saved ? std::make_unique<rheo::Live>(*shared, settings, *saved)
+                 : std::make_unique<rheo::Live>(*shared, settings);
+  };
+  auto live = make();
+  if (shared->time.step == 0.0 && load_of(live->simulation(), settings_.rate) > most_load) {
+    settings.simulation.stable_share = quick_share;
+    live = make();
+  }
   if (live_) steps_before_ += live_->simulation().counters().steps;
   // A run that goes on with other parameters keeps its books.
   const rheo::Energies old = live_ && saved ? energies() : rheo::Energies{};
@@ -161,7 +177,7 @@ bool Core::begin(Hold hold, const std::vector<rheo::Edge>& edges) {
     }
     hold_ = hold;
     edges_ = std::move(few);
-    target_ = at_ = velocity_ = {};
+    target_ = at_ = velocity_ = acceleration_ = {};
     still_ = false;
     return true;
   }
@@ -197,11 +213,13 @@ bool Core::change(rheo::Scene edited) {
   }
   begin_again();
   // What the hand has it keeps: a push as it is; a grab begins anew from where it is.
-  const rheo::Vec2 target = target_, at = at_, velocity = velocity_;
+  const rheo::Vec2 target = target_, at = at_, velocity = velocity_, acceleration = acceleration_;
   if (hold != Hold::nothing && begin(hold, edges) && hold == Hold::push) {
     target_ = target;
     at_ = at;
     velocity_ = velocity;
+    acceleration_ = acceleration;
+    live_->press(handle_, at_);
   }
   return true;
 }
@@ -223,21 +241,24 @@ void Core::reset() {
   begin_again();
 }
 
-// The exact course over a tick towards a target that stands still.
 void Core::follow_target() {
-  const double h = 1.0 / settings_.rate, s = h / follow_, decay = std::exp(-s);
-  const auto go = [&](double& x, double& v, double target, double close) {
-    const double e = x - target, slope = v + e / follow_;
-    x = target + (e + slope * h) * decay;
-    v = (v - slope * s) * decay;
-    if (std::abs(x - target) <= close && std::abs(v) * follow_ <= close) {
+  // In units of a tick, v h and a h^2, the gains that put all three poles at d = 1 - r.
+  const double h = 1.0 / settings_.rate, r = -std::expm1(-1.5 * h / follow_);
+  const double k1 = r * r * r, k2 = 3.0 * r * r - k1, k3 = 3.0 * r - 1.5 * r * r + k1 / 3.0;
+  const auto go = [&](double& x, double& v, double& a, double target, double close) {
+    const double jerk = -(k1 * (x - target) + k2 * v * h + k3 * a * h * h);  // times h^3
+    x += v * h + a * h * h / 2.0 + jerk / 6.0;
+    v += a * h + jerk / (2.0 * h);
+    a += jerk / (h * h);
+    if (std::abs(x - target) <= close && std::abs(v) * follow_ <= close &&
+        std::abs(a) * follow_ * follow_ <= close) {
       x = target;
-      v = 0.0;
+      v = a = 0.0;
     }
   };
   const double close = 1e-9 * std::hypot(target_.x, target_.y);
-  go(at_.x, velocity_.x, target_.x, close);
-  go(at_.y, velocity_.y, target_.y, close);
+  go(at_.x, velocity_.x, acceleration_.x, target_.x, close);
+  go(at_.y, velocity_.y, acceleration_.y, target_.y, close);
 }
 
 bool Core::tick() {
@@ -290,6 +311,7 @@ void Core::show(Display& display) {
     display.positions[2 * i] = scene_->mesh.points[i].x + u[2 * i];
     display.positions[2 * i + 1] = scene_->mesh.points[i].y + u[2 * i + 1];
   }
+  display.velocities.assign(simulation.v().begin(), simulation.v().end());
   magnitudes(simulation.w_lambda(), display.w_lambda);
   magnitudes(simulation.w_mu(), display.w_mu);
   magnitudes(simulation.v(), display.speed);

@@ -1,9 +1,12 @@
 // A body under one user's hand, tick by tick: push, grab, let go, other parameters, another scene.
 //
-// The hand follows what it is told by a critically damped course, so that neither its place nor its speed
-// jumps however rarely and unevenly a cursor is seen:
+// The hand follows what it is told by a critically damped course of third order, so that neither its place
+// nor its speed nor its acceleration jumps however rarely and unevenly a cursor is seen: a cubic spline with
+// knots at the ticks, whose x''' is chosen at each such that the distance to a target at rest has the pole d
+// = exp(-1.5 tick / follow) three times.
 //
-//   x'' = (target - x) / follow^2 - 2 x' / follow
+// An automatic step is a quarter of the stable one as everywhere; where that would be too slow for real time,
+// 0.9 of it.
 //
 // Units    SI
 // Errors   Error::Kind::input from the constructor; later a message, and what was goes on
@@ -81,7 +84,7 @@ class Core {
   Hold hold_ = Hold::nothing;
   int handle_ = 0;
   std::vector<rheo::Edge> edges_;
-  rheo::Vec2 target_, at_, velocity_;
+  rheo::Vec2 target_, at_, velocity_, acceleration_;
   double follow_ = 0.02;  // [s] of simulated time
 
   double energy_start_ = 0.0;                           // kinetic + stored + dissipated - work

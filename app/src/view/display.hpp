@@ -1,7 +1,7 @@
 // What the window shows of a moment: one whole state, copied out of the physics, never looked at by both.
 //
 // Units    SI
-// Shapes   positions: n x 2, deformed; magnitudes: n
+// Shapes   positions, velocities: n x 2, deformed; magnitudes: n
 // Errors   none
 #pragma once
 
@@ -31,7 +31,7 @@ struct Display {
   double t = 0.0;
   std::int64_t ticks = 0;
 
-  std::vector<double> positions, w_lambda, w_mu, speed;
+  std::vector<double> positions, velocities, w_lambda, w_mu, speed;
   std::vector<int> held;
   std::vector<rheo::Simulation::ActiveTraction> tractions;
   HandDisplay hand;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "body_labels.hpp"
 #include "flat_rows.hpp"
 #include "node_scalars.hpp"
+#include "scene_parts.hpp"
 
 namespace app::view {
 namespace {
@@ -90,12 +92,16 @@ void Picture::build(const Display& display, const PictureStyle& style, int width
   const std::vector<double> rest = flat(scene.mesh.points);
   const std::vector<int> triangles = flat_numbers(scene.mesh.triangles);
   const std::vector<int> boundary = flat_numbers(scene.mesh.edge_groups.at("boundary"));
+  const std::vector<int> interfaces = interfaces_of(scene);
+  const std::vector<render::BodyLabel> labels = body_labels(scene);
   const ScalarText scalar = scalar_text(style.color);
   picture_.reset();
   picture_ = std::make_unique<render::MeshPicture>(context_,
                                                    render::MeshLayout{.rest = rest,
                                                                       .triangles = triangles,
                                                                       .boundary = boundary,
+                                                                      .interfaces = interfaces,
+                                                                      .labels = labels,
                                                                       .title = scene.title,
                                                                       .scalar_name = scalar.name,
                                                                       .scalar_unit = scalar.unit,

@@ -346,7 +346,11 @@ void Ui::frame(const Input& input) {
   screen_.resize(std::max(input.width, 1), std::max(input.height, 1));
   take_input(input);
   if (style_.dark != dark_set_) set_style_colors();
-  display_ = &physics_.newest();
+  const Display& newest = physics_.newest();
+  history_.add(newest);
+  const double now = std::chrono::duration<double>(begin.time_since_epoch()).count();
+  // A recording is of ticks.
+  display_ = recording_.is_on() ? &newest : &slow_motion_.shown(newest, physics_.rate(), now);
   const Display& d = *display_;
   if (d.message_number != message_seen_) say(d.message);
   if (d.body != gain_of_) push_gain_ = default_push(*d.scene);
@@ -355,7 +359,6 @@ void Ui::frame(const Input& input) {
   if (base_body_ != d.body && base_body_ >= 0) style_.color = d.scene->picture.color;
   base_body_ = d.body;
   toast_left_ -= input.seconds;
-  history_.add(d);
   note_times(input);
 
   ImGui::NewFrame();

@@ -22,6 +22,7 @@
 #include "view/physics.hpp"
 #include "view/picture.hpp"
 #include "view/recording.hpp"
+#include "view/slow_motion.hpp"
 
 struct ImGuiContext;
 struct ImVec2;
@@ -144,6 +145,7 @@ class Ui {
   Picture picture_;
   Recording recording_;
   History history_;
+  SlowMotion slow_motion_;
   const Display* display_ = nullptr;
   PictureStyle style_;
   bool dark_set_ = false;

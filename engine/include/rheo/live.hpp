@@ -3,10 +3,11 @@
 //
 //   push   a traction on the handle's edges: from the present value to the new one along the next tick's line
 //   grab   holds the handle's nodes from now on, at first each with its own velocity v0, which goes over into
-//          the hand's within grab_time T:  b(t) = u(from) + course(t) + v0 s (1 - s/T)^2,  s = t - from;
-//          neither place nor velocity jumps: no impulse
+//          the hand's within grab_time T:  b(t) = u(from) + course(t) + v0 s (1 - s/T)^3,  s = t - from,
+//          at the ends of ticks, the cubic between; neither place nor velocity jumps: no impulse
 //   drag   where the hand is to be at the end of the next tick, relative to where it grabbed; the course is
-//          the cubic with places and velocities at both ends (C1), a velocity not given is (new - old) / tick
+//          the cubic with places and velocities at both ends: C1, and C2 where the caller's own course is a
+//          cubic spline with knots at the ticks; a velocity not given is (new - old) / tick
 //   tick   k ends at k / rate; the scene's own loads, moves and events go on as scripted
 //
 // Tractions with keys and hermite moves of a scene say the same: session() is that scene.
@@ -78,6 +79,9 @@ class Live {
   // Gives an idle handle other nodes and edges.
   bool pick(int handle, std::span<const int> nodes, std::span<const Edge> edges);
   bool push(int handle, Vec2 traction);
+  // The same at once, of a handle that pushes nothing: for a hand that goes on where another simulation was
+  // left.
+  bool press(int handle, Vec2 traction);
   // How many degrees of freedom it holds now: not those that the scene holds now or later, or another hand
   // does, or a [[constraint]] binds.
   int grab(int handle);

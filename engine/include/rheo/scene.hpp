@@ -128,6 +128,7 @@ struct PictureSettings {
   std::array<double, 2> range{0.0, 1.0};  // where not automatic
   std::array<int, 2> size{1280, 720};     // pixels
   std::vector<double> sheet;  // times of the sheet's shapes, strictly rising [s]; empty: as suits the run
+  std::vector<std::string> captions;  // of these shapes, each may be empty; as many as times, or none
 };
 
 // A further material in the mesh. All materials of a scene have the same kind of mass.

@@ -87,6 +87,18 @@ std::vector<std::int32_t> in_physical(const TableReader& reader, const Mesh& mes
                             word_list(names, "and")));
 }
 
+std::vector<std::int32_t> by_number(const TableReader& reader, const Mesh& mesh) {
+  const TomlValue& value = *reader.find("triangles");
+  const int last = mesh.triangle_count() - 1;
+  if (value.type != TomlValue::Type::array || value.items.empty())
+    reader.refuse("triangles", value, fmt::format("a list of triangle numbers from 0 to {} is needed", last));
+  std::vector<std::int32_t> triangles;
+  for (std::size_t k = 0; k < value.items.size(); ++k)
+    triangles.push_back(
+        reader.integer(fmt::format("triangles[{}]", k), value.items[k], 0, last, "triangle number"));
+  return triangles;
+}
+
 std::vector<std::int32_t> in_shape(const Mesh& mesh, const Inside& inside) {
   std::vector<std::int32_t> triangles;
   for (int t = 0; t < mesh.triangle_count(); ++t) {
@@ -105,17 +117,18 @@ std::vector<std::int32_t> in_shape(const Mesh& mesh, const Inside& inside) {
 
 void read_region(const TomlValue& table, const std::string& file, const std::filesystem::path& folder,
                  const std::string& owner, Scene& scene) {
-  static const std::array<std::string, 4> ways{"physical", "box", "disk", "polygon"};
+  static const std::array<std::string, 5> ways{"physical", "box", "disk", "polygon", "triangles"};
   const TableReader reader(table, file, fmt::format("[[{}region]]", owner), table.line,
-                           {"name", "physical", "box", "disk", "polygon", "material"});
+                           {"name", "physical", "box", "disk", "polygon", "triangles", "material"});
   Region region;
   region.where = reader.where();
   region.name = reader.text("name", fmt::format("region {}", scene.regions.size() + 1));
   const std::string way = reader.exactly_one(ways);
-  const std::vector<std::int32_t> triangles = way == "physical" ? in_physical(reader, scene.mesh)
-                                              : way == "box"    ? in_shape(scene.mesh, in_box(reader))
-                                              : way == "disk"   ? in_shape(scene.mesh, in_disk(reader))
-                                                                : in_shape(scene.mesh, in_polygon(reader));
+  const std::vector<std::int32_t> triangles = way == "physical"    ? in_physical(reader, scene.mesh)
+                                              : way == "triangles" ? by_number(reader, scene.mesh)
+                                              : way == "box"       ? in_shape(scene.mesh, in_box(reader))
+                                              : way == "disk"      ? in_shape(scene.mesh, in_disk(reader))
+                                                                   : in_shape(scene.mesh, in_polygon(reader));
   if (triangles.empty())
     reader.refuse(way, *reader.find(way), "no triangle of the mesh has its centroid in it");
   const TomlValue& material = reader.require(

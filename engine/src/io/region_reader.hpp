@@ -1,10 +1,12 @@
 // The [[region]] tables of a scene file: parts of the mesh with a material of their own.
 //
 //   name, and exactly one of
-//   physical = "crumb"            triangles of a Gmsh file's physical surface ("physical_<tag>" without a
-//   name) box = [x0, y0, x1, y1]        m; triangles whose centroid lies inside, here and below disk = [x, y,
-//   radius] polygon = [[x, y], ...]       three corners or more, the even-odd rule and [region.material] all
-//   that [material] has; its mass is the scene's
+//   physical = "crumb"             a Gmsh file's physical surface ("physical_<tag>" without a name)
+//   box = [x0, y0, x1, y1]         m; triangles whose centroid lies inside, here and below
+//   disk = [x, y, radius]
+//   polygon = [[x, y], ...]        three corners or more, the even-odd rule
+//   triangles = [i, ...]           by number
+//   and [region.material]          all that [material] has; its mass is the scene's
 //
 // A later region takes triangles away from an earlier one.
 //

@@ -140,15 +140,22 @@ class SceneReader {
     std::vector<double>& times = scene_.picture.sheet;
     bool fits = sheet.type == TomlValue::Type::array && !sheet.items.empty();
     for (std::size_t k = 0; fits && k < sheet.items.size(); ++k) {
-      const TomlValue& item = sheet.items[k];
-      fits = item.is_number() && item.number >= 0.0 && item.number <= scene_.time.duration &&
-             (times.empty() || item.number > times.back());
-      if (fits) times.push_back(item.number);
+      const TomlValue& item = sheet.items[k];  // a time, or [time, "caption"]
+      const bool captioned = item.type == TomlValue::Type::array && item.items.size() == 2 &&
+                             item.items[1].type == TomlValue::Type::string;
+      const TomlValue& time = captioned ? item.items[0] : item;
+      fits = time.is_number() && time.number >= 0.0 && time.number <= scene_.time.duration &&
+             (times.empty() || time.number > times.back());
+      if (!fits) break;
+      times.push_back(time.number);
+      scene_.picture.captions.push_back(captioned ? item.items[1].text : "");
     }
     if (!fits)
-      render.refuse("sheet", sheet,
-                    fmt::format("a list of times, strictly rising from 0 to the duration, {:g} s, is needed",
-                                scene_.time.duration));
+      render.refuse(
+          "sheet", sheet,
+          fmt::format("a list of times, or of [time, \"caption\"], strictly rising from 0 to the duration, "
+                      "{:g} s, is needed",
+                      scene_.time.duration));
   }
 
   const std::string& file_;

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <iterator>
 
-#include "rheo/error.hpp"
-
 namespace rheo {
 namespace {
 
@@ -29,15 +27,13 @@ const char* name_of(Axis axis) {
 
 class SceneWriter {
  public:
-  explicit SceneWriter(const Scene& scene) : scene_(scene) {
-    if (!scene.regions.empty())
-      throw Error(Error::Kind::input, "a scene with several regions cannot be written as a file yet");
-  }
+  explicit SceneWriter(const Scene& scene) : scene_(scene) {}
 
   std::string text() {
     line("title = {}", quoted(scene_.title));
     mesh();
-    material();
+    material("material", scene_.material);
+    for (std::size_t r = 0; r < scene_.regions.size(); ++r) region(r);
     line("\n[body_force]\nacceleration = [{}, {}]", number(scene_.body_acceleration.x),
          number(scene_.body_acceleration.y));
     for (const Fix& fix : scene_.fixes) {
@@ -82,9 +78,10 @@ class SceneWriter {
   void edges(const std::string& name, const std::vector<Edge>& all) {
     rows(name, all, [](const Edge& e) { return fmt::format("[{}, {}]", e[0], e[1]); });
   }
-  void nodes(const std::vector<int>& all) {
-    rows("nodes", all, [](int node) { return std::to_string(node); });
+  void numbers(const std::string& name, const std::vector<int>& all) {
+    rows(name, all, [](int i) { return std::to_string(i); });
   }
+  void nodes(const std::vector<int>& all) { numbers("nodes", all); }
   void held(const std::vector<int>& all, Axis axis) {
     nodes(all);
     if (axis != Axis::both) line("axis = {}", quoted(name_of(axis)));
@@ -111,20 +108,29 @@ class SceneWriter {
          number(b.lambda_vis), number(b.mu_vis));
   }
 
-  void material() {
-    const Material& m = scene_.material;
-    line("\n[material]");
+  void material(const std::string& table, const Material& m) {
+    line("\n[{}]", table);
     branch(m.branch(0));
     line("density = {}\nmass = {}", number(m.density),
          quoted(m.mass == Mass::lumped ? "lumped" : "consistent"));
     if (m.elastic.lambda != 0.0 || m.elastic.mu != 0.0)
-      line("\n[material.elastic]\nlambda = {}\nmu = {}", number(m.elastic.lambda), number(m.elastic.mu));
+      line("\n[{}.elastic]\nlambda = {}\nmu = {}", table, number(m.elastic.lambda), number(m.elastic.mu));
     if (m.viscous.lambda != 0.0 || m.viscous.mu != 0.0)
-      line("\n[material.viscous]\nlambda = {}\nmu = {}", number(m.viscous.lambda), number(m.viscous.mu));
+      line("\n[{}.viscous]\nlambda = {}\nmu = {}", table, number(m.viscous.lambda), number(m.viscous.mu));
     for (const MaxwellBranch& b : m.more_branches) {
-      line("\n[[material.maxwell]]");
+      line("\n[[{}.maxwell]]", table);
       branch(b);
     }
+  }
+
+  void region(std::size_t r) {
+    std::vector<int> triangles;
+    for (std::size_t t = 0; t < scene_.region_of_triangle.size(); ++t)
+      if (scene_.region_of_triangle[t] == static_cast<std::int32_t>(r) + 1)
+        triangles.push_back(static_cast<int>(t));
+    line("\n[[region]]\nname = {}", quoted(scene_.regions[r].name));
+    numbers("triangles", triangles);
+    material("region.material", scene_.regions[r].material);
   }
 
   void move(const Move& m) {
@@ -178,6 +184,15 @@ class SceneWriter {
     line("\n[render]\ncolor = \"{}\"\nsize = [{}, {}]", colors[static_cast<int>(p.color)], p.size[0],
          p.size[1]);
     if (p.branch != 0) line("branch = {}", p.branch);
+    if (!p.sheet.empty()) {
+      std::vector<std::string> shapes;
+      for (std::size_t k = 0; k < p.sheet.size(); ++k) {
+        const bool bare = p.captions.empty() || p.captions[k].empty();
+        shapes.push_back(bare ? number(p.sheet[k])
+                              : fmt::format("[{}, {}]", number(p.sheet[k]), quoted(p.captions[k])));
+      }
+      rows("sheet", shapes, [](const std::string& shape) { return shape; });
+    }
     if (!p.range_auto) line("range = [{}, {}]", number(p.range[0]), number(p.range[1]));
   }
 

@@ -12,6 +12,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "render/image.hpp"
@@ -34,6 +35,7 @@ struct MeshLayout {
   std::span<const int> boundary;        // k x 2, interior on the left
   std::span<const int> interfaces{};    // k x 2, where materials meet: a line that stands out from the mesh's
   std::span<const BodyLabel> labels{};  // of several bodies
+  std::string letters{};                // that captions of sheets will need
   std::string title;                    // drawn at the top left; may be empty
   std::string scalar_name;              // "|w_lambda|"; empty: no colour, no colour bar
   std::string scalar_unit;              // "Pa m"
@@ -54,6 +56,7 @@ struct MeshFrame {
   std::span<const int> held;  // nodes that a constraint holds: hatched along boundary edges held at both ends
   std::span<const TractionArrow> arrows;  // one per loaded edge
   double time = 0.0;
+  std::string_view caption{};  // beside the time on a sheet, where all of its captions have room
 };
 
 enum class Shade { light, dark };
