@@ -139,37 +139,35 @@ void EdgeBody::chain(std::span<const Sweep> sweeps) {
               [&](std::size_t sweep, std::size_t block) { sweep_block(sweeps[sweep], block); });
 }
 
-// Sums over edges: x^T J_lambda w = - sum over edges of dx^T S dw, x^T J_mu w = - sum of dx^T (S + trace(S)
-// I) dw, and the boundary's antisymmetric part in both.
 EdgeBody::Sums EdgeBody::sums_of(const EdgeForm::Block& block) const {
   const double* xp = state_.data() + p();
   const double* xv = state_.data() + v();
   Sums sums;
+  for (auto i = 2 * static_cast<std::size_t>(block.first_node);
+       i < 2 * static_cast<std::size_t>(block.last_node); ++i)
+    sums.kinetic += mass_[i] * xv[i] * xv[i];
+  sums.forms = form_.moduli ? combined_forms(xp, xv, block)
+                            : edge_force_.forms().rows(form_, xp, xv, block.first_run, block.last_run);
+  return sums;
+}
+
+// q^T K q and v^T K q.
+EdgeForms EdgeBody::combined_forms(const double* xq, const double* xv, const EdgeForm::Block& block) const {
+  EdgeForms sums;
   for (std::int32_t r = block.first_run; r < block.last_run; ++r) {
-    const EdgeForm::Run& run = form_.runs[r];
-    for (std::size_t i = static_cast<std::size_t>(run.first); i < static_cast<std::size_t>(run.last); ++i) {
-      const double* pi = xp + row() * i;
-      const double* vi = xv + 2 * i;
-      sums.kinetic += mass_[2 * i] * (vi[0] * vi[0] + vi[1] * vi[1]);
+    const EdgeForm::Run& run = form_.runs[static_cast<std::size_t>(r)];
+    for (auto i = static_cast<std::size_t>(run.first); i < static_cast<std::size_t>(run.last); ++i) {
       const EdgeForm::Edges edges = run.edges_of(static_cast<std::int64_t>(i));
       auto e = static_cast<std::size_t>(edges.edge);
       for (std::int32_t k = 0; k < run.valence; ++k, e += static_cast<std::size_t>(edges.stride)) {
-        const std::size_t offset = form_.offset[e];
-        if (offset < row() * i) continue;  // each edge once
-        const std::array<double, 4> level = form_.full_level(e);
-        const double mixed = form_.mixed[e];
-        const double* pj = xp + offset;
-        const double* vj = xv + 2 * (offset / row());
-        const double dx = vj[0] - vi[0], dy = vj[1] - vi[1];
-        const double lx = pj[0] - pi[0], ly = pj[1] - pi[1];
-        const double slx = level[0] * lx + mixed * ly, sly = mixed * lx + level[1] * ly;
-        sums.ll -= lx * slx + ly * sly;
-        sums.vl -= dx * slx + dy * sly;
-        if (form_.moduli) continue;
-        const double mx = pj[2] - pi[2], my = pj[3] - pi[3];
-        const double smx = level[2] * mx + mixed * my, smy = mixed * mx + level[3] * my;
-        sums.mm -= mx * smx + my * smy;
-        sums.vm -= dx * smx + dy * smy;
+        const std::size_t j = form_.offset[e];  // 2 x the neighbour's number
+        if (j < 2 * i) continue;                // each edge once
+        const double kxx = form_.level[2 * e], kyy = form_.level[2 * e + 1], kxy = form_.mixed[e];
+        const double dx = xv[j] - xv[2 * i], dy = xv[j + 1] - xv[2 * i + 1];
+        const double qx = xq[j] - xq[2 * i], qy = xq[j + 1] - xq[2 * i + 1];
+        const double sx = kxx * qx + kxy * qy, sy = kxy * qx + kyy * qy;
+        sums.ll -= qx * sx + qy * sy;
+        sums.xl -= dx * sx + dy * sy;
       }
     }
   }
@@ -245,28 +243,11 @@ EnergySample EdgeBody::sample(double t) {
   const double* xp = state_.data() + p();
   const double* xv = state_.data() + v();
   team_.chain(1, [&](std::size_t, std::size_t block) { sums_[block] = sums_of(form_.blocks[block]); });
-  double ll = 0.0, mm = 0.0, vl = 0.0, vm = 0.0, kinetic = 0.0;
+  EdgeForms all = boundary_forms(form_, xp, row(), xv);  // combined: of q, with K's factor, as lambda's
+  double kinetic = 0.0;
   for (const Sums& sums : sums_) {
-    ll += sums.ll;
-    mm += sums.mm;
-    vl += sums.vl;
-    vm += sums.vm;
+    all += sums.forms;
     kinetic += sums.kinetic;
-  }
-  // x^T times the boundary's part of F, (h / 4) rot(w_next - w_previous): + for lambda, - for mu.
-  for (const EdgeForm::Corner& c : form_.corners) {
-    const double* next = xp + row() * static_cast<std::size_t>(c.next);
-    const double* previous = xp + row() * static_cast<std::size_t>(c.previous);
-    const double* pi = xp + row() * static_cast<std::size_t>(c.node);
-    const double* vi = xv + 2 * static_cast<std::size_t>(c.node);
-    const double q = form_.corner_factor;
-    const double lx = next[0] - previous[0], ly = next[1] - previous[1];
-    ll += q * (pi[0] * ly - pi[1] * lx);
-    vl += q * (vi[0] * ly - vi[1] * lx);
-    if (form_.moduli) continue;
-    const double mx = next[2] - previous[2], my = next[3] - previous[3];
-    mm -= q * (pi[2] * my - pi[3] * mx);
-    vm -= q * (vi[0] * my - vi[1] * mx);
   }
 
   EnergySample e;
@@ -274,9 +255,9 @@ EnergySample EdgeBody::sample(double t) {
   if (form_.moduli) {
     // w_l^T J_l w_l / lambda_vis + w_m^T J_m w_m / mu_vis = rate q^T K q
     const double rate = material_.decay[0];
-    e.stored = 0.5 * ll;
-    e.dissipated = rate * ll;
-    e.dissipated_rate = 2.0 * rate * (vl - rate * ll);
+    e.stored = 0.5 * all.ll;
+    e.dissipated = rate * all.ll;
+    e.dissipated_rate = 2.0 * rate * (all.xl - rate * all.ll);
   } else {
     const auto branch = [&](double quadratic, double with_v, double ela, double vis, double decay) {
       e.stored += 0.5 * quadratic / ela;
@@ -284,8 +265,8 @@ EnergySample EdgeBody::sample(double t) {
       e.dissipated += quadratic / vis;
       e.dissipated_rate += 2.0 * (ela * with_v - decay * quadratic) / vis;
     };
-    branch(ll, vl, material.lambda_ela, material.lambda_vis, material.lambda_rate());
-    branch(mm, vm, material.mu_ela, material.mu_vis, material.mu_rate());
+    branch(all.ll, all.xl, material.lambda_ela, material.lambda_vis, material.lambda_rate());
+    branch(all.mm, all.xm, material.mu_ela, material.mu_vis, material.mu_rate());
   }
   resample(t, e);
   return e;

@@ -55,10 +55,11 @@ class EdgeBody final : public Body {
 
   // Sums over a block's edges and nodes, for the energies; combined branches: ll and vl with K for both.
   struct Sums {
-    double ll = 0.0, mm = 0.0, vl = 0.0, vm = 0.0;  // x^T J w: w_l with itself, w_m likewise, v with both
-    double kinetic = 0.0;                           // v^T M v
+    EdgeForms forms;       // x: v
+    double kinetic = 0.0;  // v^T M v
   };
   Sums sums_of(const EdgeForm::Block& block) const;
+  EdgeForms combined_forms(const double* xq, const double* xv, const EdgeForm::Block& block) const;
 
   const EdgeForce& edge_force_;
   const EdgeForm& form_;

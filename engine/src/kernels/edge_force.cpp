@@ -7,7 +7,9 @@
 namespace rheo {
 
 EdgeForce::EdgeForce(std::shared_ptr<const EdgeForm> form, SimdLevel level)
-    : form_(std::move(form)), sweep_(sweep_function(level, *form_)) {
+    : form_(std::move(form)),
+      sweep_(sweep_function(level, *form_)),
+      forms_(edge_forms_functions(level, *form_)) {
   const auto n = static_cast<std::size_t>(form_->nodes);
   zeros_.assign(4 * n, 0.0);
   unused_ = zeros_;

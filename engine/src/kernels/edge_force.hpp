@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kernels/edge_form.hpp"
+#include "kernels/edge_forms.hpp"
 #include "kernels/edge_sweep.hpp"
 
 namespace rheo {
@@ -19,6 +20,7 @@ class EdgeForce {
 
   const EdgeForm& form() const { return *form_; }
   SweepFunction sweep() const { return sweep_; }
+  const EdgeFormsFunctions& forms() const { return forms_; }
 
   void apply(const double* p, double* force) const;
 
@@ -32,6 +34,7 @@ class EdgeForce {
  private:
   std::shared_ptr<const EdgeForm> form_;
   SweepFunction sweep_;
+  EdgeFormsFunctions forms_;
   std::vector<double> zeros_, ones_;
   mutable std::vector<double> unused_, packed_, force_;
 };

@@ -6,7 +6,9 @@
 #pragma once
 
 #if defined(__x86_64__) && defined(__GNUC__)
+#ifndef RHEO_X86_SWEEPS
 #define RHEO_X86_SWEEPS 1
+#endif
 
 #include "kernels/edge_sweep.hpp"
 

@@ -39,59 +39,16 @@ void ParallelEdgeBody::sweep_force(const SweepArrays& arrays, double h, std::siz
                                 corner_begin_[block + 1]);
 }
 
-// Sums over edges: x^T J_lambda w = - sum over edges of dx^T S dw, x^T J_mu w = - sum of dx^T (S + trace(S)
-// I) dw, and the boundary's antisymmetric part (h / 4) rot(w_next - w_previous), + for lambda, - for mu.
 void ParallelEdgeBody::forms_of(const double* w, std::size_t stride, const double* x,
                                 std::span<Forms> forms) {
-  const std::size_t mu = stride == 4 ? 2 : 0;
+  const EdgeFormsFunction edges = stride == 4 ? edge_force_.forms().rows : edge_force_.forms().both;
   team().chain(1, [&](std::size_t, std::size_t block) {
-    Forms sums;
-    for (std::int32_t r = form_.blocks[block].first_run; r < form_.blocks[block].last_run; ++r) {
-      const EdgeForm::Run& run = form_.runs[r];
-      for (auto i = static_cast<std::size_t>(run.first); i < static_cast<std::size_t>(run.last); ++i) {
-        const EdgeForm::Edges edges = run.edges_of(static_cast<std::int64_t>(i));
-        auto e = static_cast<std::size_t>(edges.edge);
-        for (std::int32_t k = 0; k < run.valence; ++k, e += static_cast<std::size_t>(edges.stride)) {
-          const std::size_t j = form_.offset[e] / 4;
-          if (j < i) continue;  // each edge once
-          const std::array<double, 4> level = form_.full_level(e);
-          const double mixed = form_.mixed[e];
-          const double *wi = w + stride * i, *wj = w + stride * j;
-          const double dx = x[2 * j] - x[2 * i], dy = x[2 * j + 1] - x[2 * i + 1];
-          const double lx = wj[0] - wi[0], ly = wj[1] - wi[1];
-          const double mx = wj[mu] - wi[mu], my = wj[mu + 1] - wi[mu + 1];
-          const double slx = level[0] * lx + mixed * ly, sly = mixed * lx + level[1] * ly;
-          const double smx = level[2] * mx + mixed * my, smy = mixed * mx + level[3] * my;
-          sums.ll -= lx * slx + ly * sly;
-          sums.xl -= dx * slx + dy * sly;
-          sums.mm -= mx * smx + my * smy;
-          sums.xm -= dx * smx + dy * smy;
-        }
-      }
-    }
-    sums_[block] = sums;
+    const EdgeForm::Block& b = form_.blocks[block];
+    sums_[block] = edges(form_, w, x, b.first_run, b.last_run);
   });
-  Forms all;
-  for (const Forms& sums : sums_) {
-    all.ll += sums.ll;
-    all.mm += sums.mm;
-    all.xl += sums.xl;
-    all.xm += sums.xm;
-  }
-  const double q = form_.corner_factor;
-  for (const EdgeForm::Corner& c : form_.corners) {
-    const double* next = w + stride * static_cast<std::size_t>(c.next);
-    const double* previous = w + stride * static_cast<std::size_t>(c.previous);
-    const double* wi = w + stride * static_cast<std::size_t>(c.node);
-    const double* xi = x + 2 * static_cast<std::size_t>(c.node);
-    const double lx = next[0] - previous[0], ly = next[1] - previous[1];
-    const double mx = next[mu] - previous[mu], my = next[mu + 1] - previous[mu + 1];
-    all.ll += q * (wi[0] * ly - wi[1] * lx);
-    all.xl += q * (xi[0] * ly - xi[1] * lx);
-    all.mm -= q * (wi[mu] * my - wi[mu + 1] * mx);
-    all.xm -= q * (xi[0] * my - xi[1] * mx);
-  }
-  forms.front() = all;
+  EdgeForms all = boundary_forms(form_, w, stride, x);
+  for (const EdgeForms& sums : sums_) all += sums;
+  forms.front() = {all.ll, all.mm, all.xl, all.xm};
 }
 
 // Only constrained nodes are asked for, a few: one by one, not by a sweep over the mesh.

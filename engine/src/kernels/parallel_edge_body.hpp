@@ -24,7 +24,7 @@ class ParallelEdgeBody final : public ParallelBody {
   const EdgeForce& edge_force_;
   const EdgeForm& form_;
   std::vector<std::size_t> corner_begin_;  // by block, one more at the end
-  std::vector<Forms> sums_;  // by block: added up in their order, whatever the number of threads
+  std::vector<EdgeForms> sums_;  // by block: added up in their order, whatever the number of threads
 };
 
 }  // namespace rheo
