@@ -19,7 +19,13 @@ struct PngSequence::Impl {
   };
 
   explicit Impl(int threads) : capacity(static_cast<std::size_t>(std::max(threads, 1)) + 1) {
-    for (int i = 0; i < std::max(threads, 1); ++i) workers.emplace_back([this] { work(); });
+    workers.reserve(static_cast<std::size_t>(std::max(threads, 1)));
+    try {
+      for (int i = 0; i < std::max(threads, 1); ++i) workers.emplace_back([this] { work(); });
+    } catch (const std::exception&) {
+      // No memory for another thread: one will do.
+      if (workers.empty()) throw;
+    }
   }
 
   ~Impl() {

@@ -4,8 +4,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
+#include <latch>
 #include <thread>
 #include <utility>
+#include <vector>
+#ifdef __unix__
+#include <sys/resource.h>
+#endif
 
 #include "kernels/flush_denormals.hpp"
 
@@ -29,6 +35,33 @@ void wait_for(const std::atomic<std::size_t>& progress, std::size_t wanted) {
   }
 }
 
+// Whether addresses for the stacks of threads may run out (ulimit -v).
+bool addresses_are_limited() {
+#ifdef __unix__
+  rlimit limit{};
+  return getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY;
+#else
+  return false;
+#endif
+}
+
+// How many of them can be had at once: OpenMP ends the program where it asks for one too many.
+int startable_threads(int threads) {
+  if (threads == 1 || !addresses_are_limited()) return threads;
+  std::latch all_asked(1);
+  std::vector<std::thread> started;
+  try {
+    started.reserve(static_cast<std::size_t>(threads - 1));
+    while (static_cast<int>(started.size()) < threads - 1)
+      started.emplace_back([&all_asked] { all_asked.wait(); });
+  } catch (const std::exception&) {
+    // As many as there are.
+  }
+  all_asked.count_down();
+  for (std::thread& thread : started) thread.join();
+  return static_cast<int>(started.size()) + 1;
+}
+
 }  // namespace
 
 int usable_processors() {
@@ -43,8 +76,8 @@ int paying_threads(int nodes, int asked) {
 
 BlockTeam::BlockTeam(std::vector<std::int32_t> ends, int threads)
     : ends_(std::move(ends)),
-      threads_(
-          std::clamp(threads, 1, static_cast<int>(std::max<std::size_t>(1, ends_.size() / fewest_blocks)))),
+      threads_(startable_threads(
+          std::clamp(threads, 1, static_cast<int>(std::max<std::size_t>(1, ends_.size() / fewest_blocks))))),
       progress_(std::make_unique<Progress[]>(static_cast<std::size_t>(threads_))) {}
 
 // The block that holds the member's share of the nodes, but so that each member has a block at least.
