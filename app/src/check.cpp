@@ -136,23 +136,6 @@ std::string stable_text(double step) {
   return fmt::format("{:.6g} s", step);
 }
 
-// Where relaxation or the viscous part alone makes explicit steps many times shorter than the vibrations do.
-std::string stiffness_advice(const rheo::Scene& scene, const rheo::Spectrum& spectrum) {
-  constexpr double many_times = 10.0;
-  const double step = rheo::stable_step(spectrum, rheo::IntegratorKind::rk4);
-  if (scene.time.integrator == rheo::IntegratorKind::exponential ||
-      scene.time.integrator == rheo::IntegratorKind::implicit || !(step > 0.0) || std::isinf(step))
-    return {};
-  constexpr double rk4_imaginary_limit = 2.8284271247461903;  // of RK4's stability region
-  const double vibrations =
-      spectrum.omega_max > 0.0 ? rk4_imaginary_limit / spectrum.omega_max : scene.time.duration;
-  if (vibrations < many_times * step || scene.time.duration < 1e4 * step) return {};
-  return fmt::format(
-      "the {} alone makes explicit steps so short, vibrations would allow {:.3g} s: try --integrator "
-      "exponential or implicit",
-      spectrum.viscous_max > 0.0 ? "viscous part or relaxation" : "relaxation", vibrations);
-}
-
 // What a run would say to the step and the integrator.
 enum class Verdict {
   accepted,
@@ -248,16 +231,20 @@ Cost measure(rheo::Simulation& simulation) {
   const std::int64_t before = simulation.counters().steps;
   note_rest();
   const Clock::time_point start = Clock::now();
+  double last = 0.0;  // seconds until the latest steps were done
   while (simulation.time() < duration) {
     const double t = simulation.time() + (takes_long_steps ? step : static_cast<double>(chunk) * step);
+    const std::int64_t taken = simulation.counters().steps + simulation.counters().steps_at_rest;
     cost.divergence = simulation.advance(std::min(t, duration));
     if (cost.divergence) return cost;
+    // At the end but for rounding: nothing is left to do.
+    if (simulation.counters().steps + simulation.counters().steps_at_rest == taken) break;
     cost.steps = simulation.counters().steps - before;
     note_rest();
-    const double passed = since(start);
+    const double passed = last = since(start);
     if ((cost.steps >= few && passed > enough_seconds) || passed > 10.0 * enough_seconds) break;
   }
-  if (cost.steps > 0) cost.seconds_per_step = since(start) / static_cast<double>(cost.steps);
+  if (cost.steps > 0) cost.seconds_per_step = last / static_cast<double>(cost.steps);
   const Clock::time_point output_start = Clock::now();
   rheo::check_linearity(simulation.scene().mesh, simulation.u());
   simulation.energies();

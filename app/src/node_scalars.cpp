@@ -38,20 +38,21 @@ void find_scalars(const rheo::Simulation& simulation, rheo::ColorBy color, int b
   }
 }
 
-ScalarText scalar_text(rheo::ColorBy color) {
+ScalarText scalar_text(rheo::ColorBy color, int branch) {
+  const std::string of = branch > 0 ? " (" + std::to_string(branch) + ")" : "";
   switch (color) {
     case rheo::ColorBy::w_lambda:
-      return {"|w_lambda|", "Pa m"};
+      return {"|w_lambda|" + of, "Pa m"};
     case rheo::ColorBy::w_mu:
-      return {"|w_mu|", "Pa m"};
+      return {"|w_mu|" + of, "Pa m"};
     case rheo::ColorBy::w:
-      return {"|w|", "Pa m"};
+      return {"|w|" + of, "Pa m"};
     case rheo::ColorBy::speed:
       return {"speed |v|", "m/s"};
     case rheo::ColorBy::none:
       break;
   }
-  return {"", ""};
+  return {};
 }
 
 }  // namespace app

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "rheo/simulation.hpp"
 
@@ -15,9 +16,10 @@ namespace app {
 void find_scalars(const rheo::Simulation& simulation, rheo::ColorBy color, int branch, std::span<double> out);
 
 struct ScalarText {
-  const char* name;  // empty: nothing is coloured
-  const char* unit;
+  std::string
+      name;  // empty: nothing is coloured; with the branch's number where it is one alone: "|w_mu| (2)"
+  std::string unit;
 };
-ScalarText scalar_text(rheo::ColorBy color);
+ScalarText scalar_text(rheo::ColorBy color, int branch);
 
 }  // namespace app

@@ -32,6 +32,14 @@ void note_keys(const std::string& item, const std::vector<Key>& keys, const rheo
   }
 }
 
+bool resists_nothing(const rheo::Material& m) {
+  bool nothing =
+      m.elastic.lambda == 0.0 && m.elastic.mu == 0.0 && m.viscous.lambda == 0.0 && m.viscous.mu == 0.0;
+  for (std::size_t k = 0; k < m.branch_count(); ++k)
+    nothing = nothing && m.branch(k).lambda_ela == 0.0 && m.branch(k).mu_ela == 0.0;
+  return nothing;
+}
+
 }  // namespace
 
 std::vector<std::string> run_notes(const rheo::Scene& scene) {
@@ -41,6 +49,12 @@ std::vector<std::string> run_notes(const rheo::Scene& scene) {
       pieces > std::max(1, static_cast<int>(scene.bodies.size())))
     notes.push_back(
         fmt::format("the mesh is {} pieces that share no node: they do not feel each other", pieces));
+  for (std::size_t k = 0; k <= scene.regions.size(); ++k) {
+    if (!resists_nothing(rheo::material_of(scene, k))) continue;
+    const std::string& name = k == 0 ? scene.material_name : scene.regions[k - 1].name;
+    notes.push_back(fmt::format("{} resists nothing: its moduli are zero, its nodes fly freely",
+                                name.empty() ? "the material" : "the material of " + name));
+  }
   for (const rheo::Fix& fix : scene.fixes) note_window(fix.where, fix.window, time.duration, notes);
   for (const rheo::Move& move : scene.moves) {
     note_window(move.where, move.window, time.duration, notes);
@@ -56,6 +70,22 @@ std::vector<std::string> run_notes(const rheo::Scene& scene) {
     notes.push_back(fmt::format("outputs end at t = {:.6g} s, state.csv is at the duration {:.6g} s", last,
                                 time.duration));
   return notes;
+}
+
+std::string stiffness_advice(const rheo::Scene& scene, const rheo::Spectrum& spectrum) {
+  constexpr double many_times = 10.0;
+  const double step = rheo::stable_step(spectrum, rheo::IntegratorKind::rk4);
+  if (scene.time.integrator == rheo::IntegratorKind::exponential ||
+      scene.time.integrator == rheo::IntegratorKind::implicit || !(step > 0.0) || std::isinf(step))
+    return {};
+  constexpr double rk4_imaginary_limit = 2.8284271247461903;  // of RK4's stability region
+  const double vibrations =
+      spectrum.omega_max > 0.0 ? rk4_imaginary_limit / spectrum.omega_max : scene.time.duration;
+  if (vibrations < many_times * step || scene.time.duration < 1e4 * step) return {};
+  return fmt::format(
+      "the {} alone makes explicit steps so short, vibrations would allow {:.3g} s: try --integrator "
+      "exponential or implicit",
+      spectrum.viscous_max > 0.0 ? "viscous part or relaxation" : "relaxation", vibrations);
 }
 
 std::string plan_text(const rheo::AccuracyPlan& plan) {
@@ -74,6 +104,8 @@ std::string plan_text(const rheo::AccuracyPlan& plan) {
 std::vector<std::string> plan_notes(const rheo::Simulation& simulation,
                                     const rheo::SimulationOptions& options) {
   std::vector<std::string> notes;
+  if (const std::string advice = stiffness_advice(simulation.scene(), simulation.spectrum()); !advice.empty())
+    notes.push_back(advice);
   if (!simulation.plan()) return notes;
   notes.push_back("accuracy " + plan_text(*simulation.plan()));
   const rheo::Energies energies = simulation.energies();

@@ -189,7 +189,7 @@ void Sequence::draw(const rheo::Scene& scene, const Recorder& recorder, const Hi
   const std::vector<render::BodyLabel> labels = body_labels(scene);
   const LoadedEdges edges(scene);
   const bool bare = nothing_to_colour(scene.picture, recorder);
-  const ScalarText scalar = scalar_text(scene.picture.color);
+  const ScalarText scalar = scalar_text(scene.picture.color, scene.picture.branch);
   const render::MeshLayout layout{.rest = rest,
                                   .triangles = triangles,
                                   .boundary = boundary,
@@ -200,7 +200,7 @@ void Sequence::draw(const rheo::Scene& scene, const Recorder& recorder, const Hi
                                   .scalar_name = bare ? "" : scalar.name,
                                   .scalar_unit = bare ? "" : scalar.unit,
                                   .range = colour_range(scene.picture, recorder),
-                                  .bounds = recorder.bounds(),
+                                  .bounds = scene.picture.bounds.value_or(recorder.bounds()),
                                   .arrow_scale = largest_traction(recorder, edges)};
   impl_->bare = bare;
   render::MeshPicture picture(*impl_->context, layout);

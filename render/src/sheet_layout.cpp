@@ -90,7 +90,9 @@ class Sheet {
 
   Framing framing(const Rect& cell) const {
     const float margin = line_room(cell);
-    Framing f(bounds_, {margin, margin, margin, margin + std::min(label_room_, 0.3f * room(cell).height())});
+    // Several bodies in a cell stand nearer to each other than to the next cell's.
+    const float side = label_room_ > 0 ? std::max(margin, 0.09f * cell.width()) : margin;
+    Framing f(bounds_, {side, margin, side, margin + std::min(label_room_, 0.3f * room(cell).height())});
     TractionArrows::add_to(f, canvas_, arrows_, arrow_length(cell));
     return f;
   }

@@ -69,6 +69,7 @@ Ticks log_ticks(double low, double high, int most) {
         ticks.labels.push_back(m == 1 ? fmt::format("10^{{{}}}", k) : fmt::format("{}×10^{{{}}}", m, k));
       }
     }
+    if (ticks.at.size() < 2 && most > 1 && high > low * (1 + 1e-9)) return linear_ticks(low, high, most);
     return ticks;
   }
   const int every = std::max(1, (last - first + most) / most);

@@ -187,6 +187,11 @@ TEST_F(Check, AdvisesWhereRelaxationAloneMakesStepsShort) {
   EXPECT_THAT(rheo({"check", "beam.toml"}).out, testing::Not(HasSubstr("advice")));
 }
 
+TEST_F(Check, TellsOfAMaterialThatResistsNothing) {
+  write("dust.toml", small_beam_with("lambda_ela = 7.0\nmu_ela = 5.0", "lambda_ela = 0.0\nmu_ela = 0.0"));
+  EXPECT_THAT(rheo({"check", "dust.toml"}).out, HasSubstr("resists nothing"));
+}
+
 TEST_F(Check, TellsTheImplicitIntegratorsFactor) {
   write("beam.toml", small_beam());
   const Finished finished = rheo({"check", "beam.toml", "--integrator", "implicit", "--frame-rate", "10"});

@@ -111,6 +111,15 @@ TEST(LogTicks, AreTwoAtLeastWhereTheRangeHasTwoPowers) {
   }
 }
 
+TEST(LogTicks, AreRoundNumbersWhereTheRangeIsShorterThanTheirSteps) {
+  for (const auto& [low, high] :
+       {std::pair{5.0, 7.0}, std::pair{2.2, 4.5}, std::pair{6e6, 9e6}, std::pair{0.51, 0.99}}) {
+    const auto ticks = log_ticks(low, high, 5);
+    EXPECT_GE(ticks.at.size(), 2u) << low;
+    for (const double at : ticks.at) EXPECT_TRUE(at >= low * (1 - 1e-9) && at <= high * (1 + 1e-9)) << at;
+  }
+}
+
 TEST(ShortTimes, HaveOneUnitAndNoMoreDecimalsThanTheyNeed) {
   using testing::ElementsAre;
   const auto of = [](std::vector<double> t) { return render::short_times(t); };

@@ -159,6 +159,29 @@ TEST(RegionReader, AnUnknownSurfaceIsAnsweredWithTheKnownOnes) {
   EXPECT_THAT(error_of([] { parse(layers, region("physical = 99")); }), HasSubstr("crust"));
 }
 
+TEST(RegionReader, NamesAreNotEmptyAndEachItsOwn) {
+  const auto named = [](const std::string& name) {
+    return region("name = \"" + name + "\"\nbox = [0, 0, 2, 2]\n");
+  };
+  for (const char* name : {"", "material"})
+    EXPECT_THAT(error_of([&] { parse(square, named(name)); }), HasSubstr("a name of its own")) << name;
+  EXPECT_THAT(error_of([&] { parse(square, named("core") + "\n" + named("core")); }),
+              AllOf(HasSubstr("name = \"core\""), HasSubstr("a name of its own")));
+  // The second's default name is the first's.
+  EXPECT_THAT(error_of([&] { parse(square, named("region 2") + "\n" + region("box = [2, 2, 4, 4]\n")); }),
+              HasSubstr("name = \"region 2\""));
+}
+
+TEST(RegionReader, TrianglesCanBeNamedByNumber) {
+  const Scene scene = parse(square, region("triangles = [3, 0, 31]\n"));
+  for (std::size_t t = 0; t < scene.region_of_triangle.size(); ++t)
+    EXPECT_EQ(scene.region_of_triangle[t], t == 0 || t == 3 || t == 31 ? 1 : 0) << t;
+  EXPECT_THAT(error_of([] { parse(square, region("triangles = [3, 32]\n")); }),
+              AllOf(HasSubstr("triangles[1] = 32"), HasSubstr("from 0 to 31")));
+  EXPECT_THAT(error_of([] { parse(square, region("triangles = []\n")); }),
+              HasSubstr("a list of triangle numbers"));
+}
+
 TEST(RegionReader, ARegionOfWhichNothingIsLeftIsRefused) {
   EXPECT_THAT(error_of([] { parse(square, region("box = [0, 0, 1, 1]") + region("box = [0, 0, 2, 2]")); }),
               AllOf(StartsWith("bad.toml:13: [[region]]"), HasSubstr("later regions have taken all")));

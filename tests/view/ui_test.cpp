@@ -71,7 +71,7 @@ TEST(ViewUi, AnEdgePushedAndReleasedComesBackPartOfTheWayAndTheWindowTells) {
   EXPECT_FALSE(user.says("push "));
   EXPECT_LT(user.ui.history().w_lambda.back(), 0.2 * strong);
   for (const char* text : {"|w| [Pa m]", "E [J]", "u [m]", "F [N]", "steps a frame", "stable step", "kernel",
-                           "energy drift", "frames/s, real time x"})
+                           "energy drift", "paused"})
     EXPECT_TRUE(user.says(text)) << text;
 }
 

@@ -110,6 +110,19 @@ done
 [ "$pushed" -gt 200 ] || fail "pushed, the picture has $pushed colours only"
 grep -q '^\[\[traction\]\]' saved/session_001.toml || fail "the drag is no traction in the session"
 
+# Left alone it comes to rest, and then takes less than 2 % of a core: 10 of 500 hundredths of a second.
+ticks() { awk '{ print $14 + $15 }' "/proc/$program/stat"; }
+waited=0
+while :; do
+  before=$(ticks)
+  sleep 5
+  taken=$(($(ticks) - before))
+  [ "$taken" -lt 10 ] && break
+  waited=$((waited + 1))
+  [ $waited -lt 12 ] || fail "not at rest after a minute: $taken hundredths of a second in 5 s"
+done
+echo "at rest: $taken hundredths of a second of processor time in 5 s"
+
 # A slider of the material.
 move 60 330
 xdotool mousedown 1

@@ -89,8 +89,26 @@ rheo::Scene for_hands(rheo::Scene scene) {
 }  // namespace
 
 Core::Core(rheo::Scene scene, const CoreSettings& settings) : settings_(settings) {
+  const double accuracy = scene.time.accuracy;
   start(for_hands(std::move(scene)), nullptr);
   begin_again();
+  tell_of_accuracy(accuracy);
+}
+
+// What a hand will do cannot be known, and so no step be chosen for an error.
+void Core::tell_of_accuracy(double accuracy) {
+  if (accuracy > 0.0)
+    say(fmt::format(
+        "accuracy = {:g} is for rheo run, render and bench; here {} takes steps of at most {:.3g} s",
+        accuracy, scene_->time.integrator == rheo::IntegratorKind::rk4 ? "rk4" : "the integrator",
+        live_->simulation().step_bound()));
+}
+
+// A refusal's advice for the command line is none in a window.
+void Core::refuse(const std::string& why) {
+  const std::size_t option = why.find(" (--allow-unstable)");
+  const std::size_t advice = option == std::string::npos ? option : why.rfind(", or ", option);
+  say(why.substr(0, advice));
 }
 
 rheo::LiveSettings Core::live_settings(const rheo::Scene& scene, const CoreSettings& settings) {
@@ -208,7 +226,7 @@ bool Core::change(rheo::Scene edited) {
   try {
     start(for_hands(std::move(edited)), live_->ticks() > 0 ? &saved : nullptr);
   } catch (const rheo::Error& error) {
-    say(error.what());
+    refuse(error.what());
     return false;
   }
   begin_again();
@@ -225,14 +243,16 @@ bool Core::change(rheo::Scene edited) {
 }
 
 bool Core::load(rheo::Scene other) {
+  const double accuracy = other.time.accuracy;
   try {
     start(for_hands(std::move(other)), nullptr);
   } catch (const rheo::Error& error) {
-    say(error.what());
+    refuse(error.what());
     return false;
   }
   ++body_;
   begin_again();
+  tell_of_accuracy(accuracy);
   return true;
 }
 
@@ -315,6 +335,7 @@ void Core::show(Display& display) {
   magnitudes(simulation.w_lambda(), display.w_lambda);
   magnitudes(simulation.w_mu(), display.w_mu);
   magnitudes(simulation.v(), display.speed);
+  display.linearity = rheo::check_linearity(scene_->mesh, u);
   display.w_lambda_norm = norm(display.w_lambda);
   display.w_mu_norm = norm(display.w_mu);
   display.held = simulation.held_nodes();

@@ -71,6 +71,8 @@ class Core {
   void begin_again();
   rheo::Energies energies() const;  // of the whole run
   void watch_for_rest();
+  void tell_of_accuracy(double accuracy);
+  void refuse(const std::string& why);
   void follow_target();
 
   CoreSettings settings_;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "rheo/deformation.hpp"
 #include "rheo/live.hpp"
 
 namespace app::view {
@@ -39,6 +40,7 @@ struct Display {
   rheo::Energies energies;
   double energy_start = 0.0;  // their balance where the parameters of now began
   double w_lambda_norm = 0.0, w_mu_norm = 0.0;
+  rheo::LinearityReport linearity;
 
   std::int64_t steps = 0;     // since the program began
   double busy_seconds = 0.0;  // of the physics, since the program began

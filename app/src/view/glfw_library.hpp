@@ -35,6 +35,7 @@ namespace app::view {
   X(SetMouseButtonCallback)    \
   X(SetScrollCallback)         \
   X(SetWindowFocusCallback)    \
+  X(SetWindowTitle)            \
   X(SetWindowSizeLimits)       \
   X(SetWindowUserPointer)      \
   X(SwapBuffers)               \

@@ -143,6 +143,10 @@ void GlfwWindow::collect(double at_most) {
   waiting_ = false;
 }
 
+void GlfwWindow::set_title(const std::string& title) {
+  glfw().SetWindowTitle(window_, title.c_str());
+}
+
 void GlfwWindow::wake() {
   if (waiting_.exchange(false)) glfw().PostEmptyEvent();
 }

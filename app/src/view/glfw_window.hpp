@@ -28,6 +28,7 @@ class GlfwWindow {
 
   render::Context& context() { return *context_; }
   float scale() const { return scale_; }
+  void set_title(const std::string& title);
   bool is_closed() const;
   bool is_visible() const;  // not minimised
 

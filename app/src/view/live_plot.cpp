@@ -46,22 +46,14 @@ struct Frame {
   }
 };
 
+// Piece by piece: a polyline's mitres leave gaps at sharp peaks.
 void draw_curve(ImDrawList& list, const Frame& frame, std::span<const double> t, const Curve& curve) {
-  std::vector<ImVec2> points;
-  const auto flush = [&] {
-    if (points.size() > 1)
-      list.AddPolyline(points.data(), static_cast<int>(points.size()), curve.color, ImDrawFlags_None, 1.6f);
-    points.clear();
-  };
   const std::size_t stride = 1 + t.size() / 1200;
-  for (std::size_t i = 0; i < t.size(); i += stride) {
-    if (!std::isfinite(curve.y[i])) {
-      flush();
-      continue;
-    }
-    points.push_back(frame.at(t[i], curve.y[i]));
+  for (std::size_t i = stride; i < t.size(); i += stride) {
+    const double from = curve.y[i - stride], to = curve.y[i];
+    if (std::isfinite(from) && std::isfinite(to))
+      list.AddLine(frame.at(t[i - stride], from), frame.at(t[i], to), curve.color, 1.6f);
   }
-  flush();
 }
 
 }  // namespace
@@ -125,14 +117,17 @@ void live_plot(const char* title, const char* unit, std::span<const double> t, s
     list.AddText({p.x - ImGui::CalcTextSize(label.c_str()).x - 0.3f * text, p.y - 0.5f * text}, soft,
                  label.c_str());
   }
+  float free = corner.x;  // of labels, from the left
   for (const double x : axis_ticks(
            frame.x0, frame.x1, std::max(2, static_cast<int>((frame.high.x - frame.low.x) / (5.0f * text))))) {
     const ImVec2 p = frame.at(x, frame.y0);
     list.AddLine(p, {p.x, p.y + 0.25f * text}, soft);
     const std::string label = fmt::format("{:.4g} s", x);
     const float width = ImGui::CalcTextSize(label.c_str()).x;
-    if (p.x - width / 2 < corner.x || p.x + width / 2 > corner.x + size.x) continue;
-    list.AddText({p.x - width / 2, p.y + 0.25f * text}, soft, label.c_str());
+    const float left = std::clamp(p.x - width / 2, corner.x, std::max(corner.x, corner.x + size.x - width));
+    if (left < free) continue;  // it would touch the one before
+    free = left + width + 0.5f * text;
+    list.AddText({left, p.y + 0.25f * text}, soft, label.c_str());
   }
   list.AddLine({frame.low.x, frame.high.y}, frame.high, soft);
   list.AddLine(frame.low, {frame.low.x, frame.high.y}, soft);

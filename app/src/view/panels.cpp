@@ -28,6 +28,21 @@ std::string with_unit(double value, const char* unit) {
   return fmt::format("{} {}{}", text.substr(0, at), text.substr(at), unit);
 }
 
+// What a linear model no longer means here; empty: nothing.
+std::string beyond_linear(const rheo::LinearityReport& report) {
+  constexpr double degree = 0.017453292519943295;
+  if (report.inverted > 0)
+    return fmt::format("{} {} inside out: beyond what a linear model means", report.inverted,
+                       report.inverted == 1 ? "triangle" : "triangles");
+  if (report.strain > rheo::strain_limit)
+    return fmt::format("strain {:.0f} %: beyond {:.0f} % a linear model loses its meaning",
+                       100.0 * report.strain, 100.0 * rheo::strain_limit);
+  if (report.rotation > rheo::rotation_limit)
+    return fmt::format("rotation {:.0f} degrees: beyond {:.0f} a linear model swells",
+                       report.rotation / degree, rheo::rotation_limit / degree);
+  return {};
+}
+
 constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize |
                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
@@ -65,7 +80,7 @@ void Ui::label(const std::string& text) {
 
 // Three decades to either side of the scene's own value.
 void Ui::modulus(const char* name, double* value, double base, const char* unit) {
-  const std::string format = fmt::format("%.4g {}", unit);
+  const std::string format = fmt::format("%.6g {}", unit);
   if (std::isinf(*value)) {
     ImGui::BeginDisabled();
     double shown = 0.0;
@@ -90,7 +105,8 @@ void Ui::draw_overlay() {
   };
   const auto plate = [&](ImVec2 at, const std::string& words, ImU32 ink, ImU32 paper) {
     const ImVec2 size = ImGui::CalcTextSize(words.c_str());
-    at.x = std::clamp(at.x, x0 + 0.4f * text, std::max(x0 + 0.4f * text, x1 - size.x - 0.4f * text));
+    const float bar = style_.color == rheo::ColorBy::none ? 0.4f : 6.5f;  // clear of the colour bar's numbers
+    at.x = std::clamp(at.x, x0 + 0.4f * text, std::max(x0 + 0.4f * text, x1 - size.x - bar * text));
     at.y = std::clamp(at.y, y0 + 0.3f * text, std::max(y0 + 0.3f * text, y1 - size.y - 0.3f * text));
     list.AddRectFilled({at.x - 0.4f * text, at.y - 0.2f * text},
                        {at.x + size.x + 0.4f * text, at.y + size.y + 0.2f * text}, paper, 4.0f * s);
@@ -114,7 +130,11 @@ void Ui::draw_overlay() {
   if (!hovered_.empty() && !dragging_ && in_picture) list.AddCircle(mouse, brush_ * s, lit, 0, 1.2f * s);
   if (dragging_) {
     const rheo::Vec2 from = d.hand.edges.empty() || !held ? drag_from_ : middle_of(d.hand.edges, d.positions);
-    const ImVec2 a = pixel(from.x, from.y), b = pixel(drag_to_.x, drag_to_.y);
+    // A push is shown as what it is, at the scale of the hand's strength; a grab by where the hand is.
+    rheo::Vec2 to = drag_to_;
+    if (held && mode_ == Hold::push && push_gain_ > 0.0)
+      to = {from.x + d.hand.traction.x / push_gain_, from.y + d.hand.traction.y / push_gain_};
+    const ImVec2 a = pixel(from.x, from.y), b = pixel(to.x, to.y);
     const float dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
     if (length > 6.0f * s && std::isfinite(length)) {
       const float head = std::min(12.0f * s, 0.5f * length), ux = dx / length, uy = dy / length;
@@ -124,7 +144,7 @@ void Ui::draw_overlay() {
                              force);
     }
     const double newton = std::hypot(d.hand.force.x, d.hand.force.y);
-    const ImVec2 at{b.x + 0.9f * text, b.y + 0.9f * text};
+    const ImVec2 at{mouse.x + 0.9f * text, mouse.y + 0.9f * text};
     if (mode_ == Hold::push)
       plate(at,
             fmt::format("push {} ({})", with_unit(std::hypot(d.hand.traction.x, d.hand.traction.y), "Pa"),
@@ -134,6 +154,8 @@ void Ui::draw_overlay() {
       plate(at, fmt::format("reaction {}", with_unit(newton, "N")), force, paper);
   }
 
+  if (const std::string beyond = beyond_linear(d.linearity); !beyond.empty())
+    plate({x0 + 0.8f * text, y1 - 3.4f * text}, beyond, ink, paper);
   // In plain sight whether the clock on the picture is the user's.
   std::string clock = fmt::format("real time x{:.2f}", d.real_time_factor);
   bool slow = false;
@@ -145,7 +167,7 @@ void Ui::draw_overlay() {
   } else if (d.resting) {
     clock = "at rest";
   } else {
-    slow = d.real_time_factor < 0.95 * d.speed_wanted;
+    slow = d.real_time_factor < 0.9 * d.speed_wanted;
   }
   if (slow && !recording_.is_on()) clock += ": the machine cannot keep up";
   plate({x0 + 0.8f * text, y1 - 1.7f * text}, clock, slow ? IM_COL32(255, 255, 255, 255) : ink,
@@ -208,7 +230,7 @@ void Ui::draw_hand_section() {
   ImGui::SliderFloat("brush", &brush_, 6.0f, 300.0f, "%.0f pixels", ImGuiSliderFlags_Logarithmic);
   mark("brush");
   const double usual = default_push(*display_->scene);
-  slider("strength", &push_gain_, usual * 1e-3, usual * 1e3, "%.3g Pa/m");
+  slider("strength", &push_gain_, usual * 1e-3, usual * 1e3, "%.6g Pa/m");
 }
 
 void Ui::draw_colour_section() {
@@ -231,8 +253,10 @@ void Ui::draw_colour_section() {
     style_.typed = {static_cast<float>(picture_.range()[0]), static_cast<float>(picture_.range()[1])};
   style_.range_mode = static_cast<RangeMode>(mode);
   if (style_.range_mode == RangeMode::typed) {
-    ImGui::InputFloat2("low, high", style_.typed.data(), "%.4g");
+    ImGui::InputFloat2("low, high", style_.typed.data(), "%.4g", ImGuiInputTextFlags_CharsScientific);
     mark("low, high");
+    if (ImGui::IsItemDeactivatedAfterEdit() && style_.typed[0] > style_.typed[1])
+      std::swap(style_.typed[0], style_.typed[1]);
   }
   checkbox("mesh", &style_.mesh_lines);
   ImGui::SameLine();
@@ -284,8 +308,9 @@ void Ui::draw_load_section() {
   if (!ImGui::CollapsingHeader("Loads")) return;
   const auto pair = [&](const char* name, rheo::Vec2& value, const char* format) {
     double both[2]{value.x, value.y};
-    const bool entered = ImGui::InputScalarN(name, ImGuiDataType_Double, both, 2, nullptr, nullptr, format,
-                                             ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool entered =
+        ImGui::InputScalarN(name, ImGuiDataType_Double, both, 2, nullptr, nullptr, format,
+                            ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CharsScientific);
     mark(name);
     value = {both[0], both[1]};
     if (entered || ImGui::IsItemDeactivatedAfterEdit()) edit();
@@ -359,8 +384,11 @@ void Ui::draw_truth() {
   const Display& d = *display_;
   const Percentiles draw = percentiles_of(draw_seconds_), physics = percentiles_of(physics_seconds_);
   const double interval = percentiles_of(intervals_).median;
-  label(fmt::format("{:.0f} frames/s, real time x{:.2f}", interval > 0.0 ? 1.0 / interval : 0.0,
-                    d.running && !d.resting ? d.real_time_factor : 0.0));
+  if (!d.running || d.resting)
+    label(d.resting ? "at rest: no steps, no frames" : "paused");
+  else
+    label(fmt::format("{:.0f} frames/s, real time x{:.2f}", interval > 0.0 ? 1.0 / interval : 0.0,
+                      d.real_time_factor));
   ImGui::TextDisabled("a frame: median, 99th percentile");
   label(fmt::format("physics {:.2f}, {:.2f} ms", 1e3 * physics.median, 1e3 * physics.high));
   label(fmt::format("drawing {:.2f}, {:.2f} ms", 1e3 * draw.median, 1e3 * draw.high));
@@ -412,8 +440,9 @@ void Ui::draw_plots(float width, float height) {
 void Ui::draw_help() {
   static constexpr std::pair<const char*, const char*> lines[]{
       {"left drag", "push or grab the lit edges; release lets go"},
-      {"right drag, wheel", "pan, zoom to the cursor"},
-      {"double click, F", "fit"},
+      {"right or middle drag", "pan"},
+      {"wheel", "zoom to the cursor"},
+      {"F, Home", "fit; or a double click beside the body"},
       {"Space", "run or pause"},
       {".", "one tick"},
       {"R, Shift+R", "reset, restart"},
@@ -427,10 +456,13 @@ void Ui::draw_help() {
       {"F12, Shift+F12", "the picture, the whole window to a file"},
       {"Ctrl+S", "save what was done as a scene"},
       {"Ctrl+Q", "quit"},
-      {"H", "this list"}};
+      {"H, F1", "this list; Esc closes it"}};
   const float text = ImGui::GetFontSize();
-  ImGui::SetNextWindowPos({static_cast<float>(area_[0] + area_[2] / 2), static_cast<float>(area_[3] / 2)},
-                          ImGuiCond_Always, {0.5f, 0.5f});
+  // From the top: its title can always be reached. Where the window is small it scrolls.
+  const auto width = static_cast<float>(window_[0]), height = static_cast<float>(window_[1]);
+  ImGui::SetNextWindowPos({0.5f * width, std::min(2.0f * text, 0.05f * height)}, ImGuiCond_Always,
+                          {0.5f, 0.0f});
+  ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {width, 0.95f * height});
   ImGui::Begin("Keys", &help_,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <utility>
 
 namespace app::view {
@@ -109,8 +110,12 @@ bool Physics::take_commands() {
     set_speed_.reset();
     owed_ticks_ += std::exchange(asked_ticks_, 0);
   }
-  for (const auto& command : commands) command(core_);
-  if (edited) core_.change(std::move(*edited));
+  try {
+    for (const auto& command : commands) command(core_);
+    if (edited) core_.change(std::move(*edited));
+  } catch (const std::exception& error) {  // no memory for another scene: the old one goes on
+    core_.say(error.what());
+  }
   if (target) core_.aim(*target, speed_);
   if (any && resting_) anchor_now();
   return any;

@@ -94,7 +94,7 @@ void Picture::build(const Display& display, const PictureStyle& style, int width
   const std::vector<int> boundary = flat_numbers(scene.mesh.edge_groups.at("boundary"));
   const std::vector<int> interfaces = interfaces_of(scene);
   const std::vector<render::BodyLabel> labels = body_labels(scene);
-  const ScalarText scalar = scalar_text(style.color);
+  const ScalarText scalar = scalar_text(style.color, 0);
   picture_.reset();
   picture_ = std::make_unique<render::MeshPicture>(context_,
                                                    render::MeshLayout{.rest = rest,
@@ -115,6 +115,7 @@ void Picture::draw(const Display& display, const PictureStyle& style, int width,
   if (display.body != body_) {
     fit_ = true;
     largest_ = arrow_scale_ = 0.0;
+    if (display.scene->picture.bounds) set_bounds(*display.scene->picture.bounds);
   }
   if (style.color != color_) largest_ = 0.0;
   if (fit_)

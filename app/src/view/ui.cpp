@@ -184,7 +184,9 @@ void Ui::load(const std::filesystem::path& file) {
   say(fmt::format("loading {}", file.string()));
   physics_.post([read = settings_.read, file](Core& core) {
     try {
-      core.load(read(file));
+      core.say({});
+      if (core.load(read(file)) && core.message().empty())
+        core.say(fmt::format("loaded {}", file.filename().string()));
     } catch (const std::exception& error) {
       core.say(error.what());
     }
@@ -192,8 +194,20 @@ void Ui::load(const std::filesystem::path& file) {
 }
 
 void Ui::save_session() {
-  physics_.post([folder = settings_.folder](Core& core) {
-    if (const auto scene = core.session()) {
+  // As it is seen now, so that rheo render shows the same.
+  rheo::PictureSettings seen = display_->scene->picture;
+  seen.color = style_.color;
+  seen.size = {area_[2], area_[3]};
+  seen.bounds = picture_.bounds();
+  seen.range_auto = !(picture_.range()[0] < picture_.range()[1]);
+  if (!seen.range_auto) seen.range = picture_.range();
+  physics_.post([folder = settings_.folder, seen](Core& core) {
+    if (auto scene = core.session()) {
+      scene->picture.color = seen.color;
+      scene->picture.size = seen.size;
+      scene->picture.bounds = seen.bounds;
+      scene->picture.range_auto = seen.range_auto;
+      scene->picture.range = seen.range;
       try {
         core.say(Recording(folder).text_file("session", ".toml", rheo::scene_text(*scene)));
       } catch (const std::exception& error) {
@@ -329,6 +343,13 @@ void Ui::record() {
   if (static_cast<double>(display_->ticks) < std::floor(wanted_ticks_)) return;
   render::Image image = recording_.image();
   picture_.read(image);
+  const std::array<int, 2> size{image.width, image.height};
+  if (recording_.frames() == 0) recorded_size_ = size;
+  if (size != recorded_size_) {  // frames of two sizes are no film
+    say(fmt::format("the picture's size has changed: {}", recording_.stop()));
+    if (run_after_recording_) physics_.run();
+    return;
+  }
   if (std::string trouble = recording_.add(std::move(image)); !trouble.empty()) {
     say(std::move(trouble));
     return;
@@ -357,6 +378,10 @@ void Ui::frame(const Input& input) {
   gain_of_ = d.body;
   if (base_body_ != d.body) base_ = d.scene;
   if (base_body_ != d.body && base_body_ >= 0) style_.color = d.scene->picture.color;
+  if (base_body_ != d.body) {  // another scene's times are its own
+    for (std::deque<double>* times : {&intervals_, &draw_seconds_, &physics_seconds_, &steps_})
+      times->clear();
+  }
   base_body_ = d.body;
   toast_left_ -= input.seconds;
   note_times(input);

@@ -184,6 +184,7 @@ class Ui {
   bool run_after_recording_ = false;
   double wanted_ticks_ = 0.0;
   std::int64_t recorded_ticks_ = -1;
+  std::array<int, 2> recorded_size_{};
 
   std::vector<std::filesystem::path> scenes_;
   std::vector<Widget> widgets_;

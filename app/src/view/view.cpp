@@ -34,10 +34,15 @@ view::PictureStyle style_of(const rheo::PictureSettings& picture) {
   return style;
 }
 
+std::string title_of(const rheo::Scene& scene) {
+  return scene.title.empty() ? "rheo" : scene.title + " - rheo";
+}
+
 // Frames at the display's rate while something moves; else none until something happens.
 void show(view::GlfwWindow& window, view::Ui& ui, double close_after) {
   const Clock::time_point start = Clock::now();
   Clock::time_point last = start;
+  std::shared_ptr<const rheo::Scene> scene = ui.shown().scene;
   while (!window.is_closed() && !ui.wants_to_quit()) {
     const double left = close_after > 0.0 ? close_after - seconds_since(start) : longest_wait;
     if (left <= 0.0) break;
@@ -56,6 +61,10 @@ void show(view::GlfwWindow& window, view::Ui& ui, double close_after) {
     const double interval = seconds_since(last);
     last = Clock::now();
     ui.frame(window.next_input(interval));
+    if (ui.shown().scene != scene) {
+      scene = ui.shown().scene;
+      window.set_title(title_of(*scene));
+    }
     ui.screen().present();
     window.swap();
   }
@@ -68,8 +77,7 @@ void view_scene(const Options& options) {
   const auto size = options.size.value_or(std::array<int, 2>{1280, 720});
   std::unique_ptr<view::GlfwWindow> window;
   try {
-    window = std::make_unique<view::GlfwWindow>(scene.title.empty() ? "rheo" : scene.title + " - rheo",
-                                                size[0], size[1]);
+    window = std::make_unique<view::GlfwWindow>(title_of(scene), size[0], size[1]);
   } catch (const std::runtime_error& error) {
     throw Failure(ExitCode::usage, fmt::format("view: {}: use rheo render {}, which needs no display",
                                                error.what(), options.scene.string()));

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -127,6 +128,8 @@ struct PictureSettings {
   bool range_auto = true;
   std::array<double, 2> range{0.0, 1.0};  // where not automatic
   std::array<int, 2> size{1280, 720};     // pixels
+  std::optional<std::array<double, 4>>
+      bounds;                 // x0, y0, x1, y1 that pictures show [m]; none: the whole motion
   std::vector<double> sheet;  // times of the sheet's shapes, strictly rising [s]; empty: as suits the run
   std::vector<std::string> captions;  // of these shapes, each may be empty; as many as times, or none
 };

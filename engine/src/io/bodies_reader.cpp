@@ -149,7 +149,7 @@ Scene read_bodies(const TomlValue& root, const std::string& file, const std::fil
     const TableReader reader(value, file, "[[body]]", value.line, keys);
     const std::string name = reader.text("name", fmt::format("body {}", scene.bodies.size() + 1));
     if (name.empty() || !names.insert(name).second)
-      reader.refuse("name", *reader.find("name"), "each body needs a name of its own, not empty");
+      reader.refuse_text("name", name, "each body needs a name of its own, not empty");
     Scene body = read_body(value, file, folder, "body.", value.line);
     if (!scene.bodies.empty() && body.mesh.thickness != thickness)
       reader.refuse(

@@ -123,6 +123,12 @@ void read_region(const TomlValue& table, const std::string& file, const std::fil
   Region region;
   region.where = reader.where();
   region.name = reader.text("name", fmt::format("region {}", scene.regions.size() + 1));
+  const bool taken = std::any_of(scene.regions.begin(), scene.regions.end(),
+                                 [&](const Region& other) { return other.name == region.name; });
+  if (region.name.empty() || region.name == "material" || taken)
+    reader.refuse_text(
+        "name", region.name,
+        "each region needs a name of its own, not empty and not \"material\", which the rest has");
   const std::string way = reader.exactly_one(ways);
   const std::vector<std::int32_t> triangles = way == "physical"    ? in_physical(reader, scene.mesh)
                                               : way == "triangles" ? by_number(reader, scene.mesh)

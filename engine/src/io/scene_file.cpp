@@ -100,13 +100,14 @@ class SceneReader {
   }
 
   void read_render() {
-    const TableReader render = tables_.table("render", {"color", "branch", "range", "size", "sheet"});
+    const TableReader render =
+        tables_.table("render", {"color", "branch", "range", "size", "bounds", "sheet"});
     static const std::array<std::string, 5> colors{"w_lambda", "w_mu", "w", "speed", "none"};
     PictureSettings& p = scene_.picture;
     p.color = static_cast<ColorBy>(render.choice("color", colors, 0));
     if (const TomlValue* branch = render.find("branch")) {
       p.branch = render.integer("branch", *branch, 0, static_cast<int>(most_branches(scene_)),
-                                "Maxwell branch of the material, or 0 for all");
+                                "whole number, 0 for all Maxwell branches or one of them,");
     }
     if (const TomlValue* range = render.find("range"); range != nullptr && range->text != "auto") {
       if (range->type != TomlValue::Type::array) {
@@ -132,8 +133,22 @@ class SceneReader {
                                    max_picture_side, "whole number of pixels");
       }
     }
+    if (const TomlValue* bounds = render.find("bounds")) read_bounds(render, *bounds);
     if (const TomlValue* sheet = render.find("sheet")) read_sheet(render, *sheet);
     render.locate([&] { validate(p); });
+  }
+
+  void read_bounds(const TableReader& render, const TomlValue& bounds) {
+    constexpr NumberRule metres{.unit = "m"};
+    std::array<double, 4> b{};
+    bool fits = bounds.type == TomlValue::Type::array && bounds.items.size() == b.size();
+    for (std::size_t k = 0; fits && k < b.size(); ++k) {
+      fits = bounds.items[k].is_number() && metres.admits(bounds.items[k].number);
+      if (fits) b[k] = bounds.items[k].number;
+    }
+    if (!fits || !(b[0] < b[2]) || !(b[1] < b[3]))
+      render.refuse("bounds", bounds, "[x0, y0, x1, y1] with x0 < x1 and y0 < y1 (m) is needed");
+    scene_.picture.bounds = b;
   }
 
   void read_sheet(const TableReader& render, const TomlValue& sheet) {

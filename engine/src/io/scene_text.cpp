@@ -193,6 +193,9 @@ class SceneWriter {
       }
       rows("sheet", shapes, [](const std::string& shape) { return shape; });
     }
+    if (p.bounds)
+      line("bounds = [{}, {}, {}, {}]", number((*p.bounds)[0]), number((*p.bounds)[1]),
+           number((*p.bounds)[2]), number((*p.bounds)[3]));
     if (!p.range_auto) line("range = [{}, {}]", number(p.range[0]), number(p.range[1]));
   }
 

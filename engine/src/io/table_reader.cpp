@@ -179,6 +179,11 @@ std::vector<std::vector<int>> TableReader::integer_rows(std::string_view key, co
   return result;
 }
 
+void TableReader::refuse_text(std::string_view key, const std::string& value, std::string_view text) const {
+  if (const TomlValue* given = find(key)) refuse(key, *given, text);
+  refuse(fmt::format("{} = {}, the default: {}", key, in_quotes(value), text));
+}
+
 int TableReader::integer(std::string_view key, const TomlValue& value, int low, int high,
                          std::string_view what) const {
   if (value.type != TomlValue::Type::integer || value.integer < low || value.integer > high) {

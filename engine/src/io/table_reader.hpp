@@ -75,6 +75,8 @@ class TableReader {
 
   // file:line: [table] key = value: text
   [[noreturn]] void refuse(std::string_view key, const TomlValue& value, std::string_view text) const;
+  // The same of a text that may be the default, where the key is not in the file.
+  [[noreturn]] void refuse_text(std::string_view key, const std::string& value, std::string_view text) const;
   // file:line: [table] text
   [[noreturn]] void refuse(std::string_view text) const;
 
