@@ -117,8 +117,13 @@ void check_regions(const Scene& scene) {
     const std::string where = region.where.empty() ? fmt::format("region {}", k + 1) : region.where;
     region.material.validate(where);
     if (region.material.mass != scene.material.mass) {
-      refuse(where, fmt::format("mass = \"{}\": all materials of a mesh need the same, [material] has \"{}\"",
-                                name_of(region.material.mass), name_of(scene.material.mass)));
+      refuse(where,
+             fmt::format(
+                 "mass = \"{}\" (the default is \"lumped\"): all materials of a scene need the same, the "
+                 "first{} has \"{}\"",
+                 name_of(region.material.mass),
+                 scene.material_name.empty() ? "" : ", of " + scene.material_name + ",",
+                 name_of(scene.material.mass)));
     }
   }
   const std::vector<std::int32_t>& of = scene.region_of_triangle;

@@ -2,10 +2,12 @@
 // them.
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 
 #include "program.hpp"
+#include "render/decode.hpp"
 
 namespace app_tests {
 namespace {
@@ -112,6 +114,41 @@ TEST_F(Render, ColourAndRangeChangeThePicture) {
   }
   render("range", {"--range", "0,100"});
   EXPECT_NE(read_text(folder() / "range/frames/frame_00004.png"), reference);
+}
+
+// A beam that is pulled to a multiple of its length: every frame shows all of it, on one scale of colours.
+TEST_F(Render, OneCameraAndOneRangeHoldForTheWholeSequence) {
+  write("beam.toml", small_beam_with("vector = [5.0, 0.0]\nuntil = 0.2", "vector = [40.0, 0.0]"));
+  render("r", {"--frame-rate", "10"});
+  const std::vector<std::string> names = frames("r");
+  ASSERT_GE(names.size(), 4u);
+  std::vector<render::Image> images;
+  for (const std::string& name : names) images.push_back(read_png(folder() / name));
+  const int width = images[0].width, height = images[0].height;
+  const auto pixel = [&](const render::Image& image, int x, int y) {
+    const std::size_t at =
+        4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+    return std::array<int, 3>{image.rgba[at], image.rgba[at + 1], image.rgba[at + 2]};
+  };
+  // The colour bar and its numbers stand on the right below the heading; that they are looked at: not all is
+  // paper.
+  int ink = 0;
+  for (int y = height / 4; y < height; ++y) {
+    for (int x = 9 * width / 10; x < width; ++x) {
+      for (const render::Image& image : images)
+        ASSERT_EQ(pixel(image, x, y), pixel(images[0], x, y)) << x << ' ' << y;
+      ink += pixel(images[0], x, y) != pixel(images[0], 0, 0) ? 1 : 0;
+    }
+  }
+  EXPECT_GT(ink, 100);
+  for (const render::Image& image : images) {
+    for (int x = 0; x < width; ++x)
+      for (const int y : {0, height - 1})
+        ASSERT_EQ(pixel(image, x, y), pixel(images[0], 0, 0)) << x << ' ' << y;
+    for (int y = 0; y < height; ++y)
+      for (const int x : {0, width - 1})
+        ASSERT_EQ(pixel(image, x, y), pixel(images[0], 0, 0)) << x << ' ' << y;
+  }
 }
 
 TEST_F(Render, DrawsTheFramesBeforeADivergence) {

@@ -183,6 +183,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadLine{2, "nqme = \"soft\"", "bad.toml:2: [[body]] nqme", "did you mean name?"},
         BadLine{17, "position = 2", "bad.toml:17: [[body]] position = 2", "[x, y], each a finite number (m)"},
         BadLine{17, "position = [nan, 0]", "bad.toml:17: [[body]] position", "finite number (m)"},
+        BadLine{17, "position = [1e15, 0]", "bad.toml:17: [[body]] position",
+                "a million times the body's size"},
         BadLine{17, "psition = [0, 0]", "bad.toml:17: [[body]] psition", "did you mean position?"},
         BadLine{18, "angle = \"up\"", "bad.toml:18: [[body]] angle = \"up\"", "rad, counter-clockwise"},
         BadLine{18, "angle = inf", "bad.toml:18: [[body]] angle = inf", "rad, counter-clockwise"},

@@ -16,6 +16,18 @@ namespace rheo {
 namespace {
 
 constexpr NumberRule metres{.unit = "m"};
+constexpr double farthest = 1e6;  // times a body's size
+
+// The diagonal of the box around it.
+double size_of(const Mesh& mesh) {
+  Vec2 low = mesh.points.front(), high = low;
+  for (const Vec2& p : mesh.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  return std::hypot(high.x - low.x, high.y - low.y);
+}
+
 constexpr NumberRule radians{.low = -1e3, .high = 1e3, .unit = "rad, counter-clockwise"};
 
 template <typename T>
@@ -157,7 +169,15 @@ Scene read_bodies(const TomlValue& root, const std::string& file, const std::fil
                       "in the first",
                       body.mesh.thickness, thickness));
     thickness = body.mesh.thickness;
-    place(body.mesh, reader.pair("position", metres, {}), reader.number("angle", radians, 0.0));
+    const Vec2 position = reader.pair("position", metres, {});
+    if (const double most = farthest * size_of(body.mesh); std::hypot(position.x, position.y) > most)
+      reader.refuse(
+          "position", *reader.find("position"),
+          fmt::format(
+              "within {:.3g} m, a million times the body's size, is needed: farther away its triangles "
+              "are lost in rounding",
+              most));
+    place(body.mesh, position, reader.number("angle", radians, 0.0));
     assembly.add(std::move(body), name,
                  fmt::format("{}:{}: [body.material]", file, reader.find("material")->line));
   }
