@@ -22,13 +22,23 @@ class EnergyBook {
   // Raises the scale so that `energy` is within work() + turnover().
   void allow(double energy) { turnover_ = std::max(turnover_, energy - work_); }
 
-  double dissipated() const { return dissipated_; }
+  // What went before this book was begun, on other terms: in all_*, and no measure of what goes on now.
+  void go_on(double dissipated, double work) {
+    dissipated_before_ = dissipated;
+    work_before_ = work;
+  }
+
   double work() const { return work_; }
   // Sum of the sizes of all that work consists of: the scale for judging a balance.
   double turnover() const { return turnover_; }
+  // The same where loads and constraint forces that cancel each other step by step count for nothing.
+  double net_turnover() const { return net_turnover_; }
+  double all_dissipated() const { return dissipated_before_ + dissipated_; }
+  double all_work() const { return work_before_ + work_; }
 
  private:
-  double dissipated_ = 0.0, work_ = 0.0, turnover_ = 0.0;
+  double dissipated_ = 0.0, work_ = 0.0, turnover_ = 0.0, net_turnover_ = 0.0;
+  double dissipated_before_ = 0.0, work_before_ = 0.0;
 };
 
 }  // namespace rheo

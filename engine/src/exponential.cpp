@@ -33,7 +33,7 @@ double norm(const double* x, std::size_t size) {
 
 }  // namespace
 
-Exponential::Exponential(std::size_t size, const ExponentialSettings& settings)
+Exponential::Exponential(std::size_t size, const IntegratorSettings& settings)
     : settings_(settings),
       coefficients_(most_terms),
       remainders_(most_terms + 1),

@@ -34,7 +34,7 @@ namespace rheo {
 
 class Exponential final : public Integrator {
  public:
-  Exponential(std::size_t size, const ExponentialSettings& settings);
+  Exponential(std::size_t size, const IntegratorSettings& settings);
 
   void step(LinearOperator& op, double t, double h, std::span<double> y,
             std::span<const double> rate) override;
@@ -81,7 +81,7 @@ class Exponential final : public Integrator {
                       std::vector<double>& sizes);
   static void include(double factor, const std::vector<double>& sizes, std::vector<double>& largest);
 
-  ExponentialSettings settings_;
+  IntegratorSettings settings_;
   Plan plan_;
   double planned_for_ = 0.0;
   double shortening_ = 1.0;                 // of the longest part, after a failure

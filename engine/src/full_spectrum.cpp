@@ -31,6 +31,22 @@ bool root_of(const MatrixR& matrix, MatrixR& root) {
   return true;
 }
 
+// About the rank of a rate's stiffness on n degrees of freedom: in a region that is not all of the body,
+// three strains a triangle, or one where lambda's springs are alone; small meshes have half as many triangles
+// as degrees of freedom.
+Eigen::Index expected_rows(const Model& model, const std::vector<Moduli>& moduli, Eigen::Index n) {
+  if (!model.has_several_materials()) return moduli[0].mu > 0.0 ? n : n / 2;
+  Eigen::Index rows = 0;
+  for (std::size_t r = 0; r < model.patches.size(); ++r) {
+    const auto triangles = static_cast<Eigen::Index>(model.patches[r].triangles.size());
+    if (moduli[r].mu > 0.0)
+      rows += 3 * triangles;
+    else if (moduli[r].lambda > 0.0)
+      rows += triangles;
+  }
+  return std::min(n, rows);
+}
+
 // Spans, in x = M^1/2 v, what the columns leave free: (M^-1/2 a)^T x = 0 for each.
 MatrixR free_directions(const MatrixR& unroot, const MatrixR& columns) {
   if (columns.cols() == 0) return MatrixR::Identity(unroot.rows(), unroot.rows());
@@ -58,8 +74,11 @@ std::vector<std::complex<double>> full_spectrum(const Model& model, const Constr
   }
   const std::vector<SharedRelaxation> relaxations = relaxations_of(materials);
   const auto n = static_cast<Eigen::Index>(free.size());
-  const Eigen::Index parts = 1 + static_cast<Eigen::Index>(relaxations.size());
-  if (free.empty() || parts * n > most) return {};
+  // (No constraint depends on others, or the solver would have refused it.)
+  const Eigen::Index directions = n - static_cast<Eigen::Index>(solver.columns().size());
+  Eigen::Index expected = directions;
+  for (const SharedRelaxation& each : relaxations) expected += expected_rows(model, each.moduli, directions);
+  if (free.empty() || expected > most) return {};
 
   std::vector<Eigen::Index> place(static_cast<std::size_t>(size), -1);
   for (Eigen::Index i = 0; i < n; ++i) place[static_cast<std::size_t>(free[i])] = i;
@@ -94,7 +113,7 @@ std::vector<std::complex<double>> full_spectrum(const Model& model, const Constr
     all += couplings.back().rows();
   }
   const bool damped = model.has_viscous_part();
-  if (all == 0 || (all == to_v.cols() && !damped)) return {};
+  if (all > most || all == 0 || (all == to_v.cols() && !damped)) return {};
 
   MatrixR full = MatrixR::Zero(all, all);
   if (damped) full.topLeftCorner(to_v.cols(), to_v.cols()) = -stiffness(viscous);

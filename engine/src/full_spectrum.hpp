@@ -10,11 +10,13 @@
 // In these variables, whose squares are energies, the operator is skew but for damping, and its eigenvalues
 // are as well conditioned as those of a symmetric one; in long double, so that rates of 1e9 /s may stand
 // beside vibrations of 1e-3 /s. Real parts are given so much larger as rounding may have made them smaller.
-// Dense: (1 + rates)^3 n^3 operations for n free degrees of freedom, hence for small bodies only.
+// Dense: the cube of their number, at most (1 + rates) n for n free degrees of freedom, hence for small
+// bodies only.
 //
 // Source   design: full operator where rates matter; Eigen's QR algorithm for the eigenvalues
 // Units    eigenvalues [1/s]
-// Errors   none: empty beyond `most`, where QR iteration does not end, or where nothing is free or stiff
+// Errors   none: empty beyond `most` eigenvalues, where QR iteration does not end, or where nothing is free
+// or stiff
 #pragma once
 
 #include <complex>

@@ -6,10 +6,10 @@
 
 namespace rheo {
 
-double Implicit::shift_of(double h) {
+double Implicit::shift_of(double h, double time) {
   int exponent = 0;
-  const double mantissa = std::frexp(gamma * h, &exponent);
-  return std::ldexp(std::round(std::ldexp(mantissa, 24)), exponent - 24);
+  const double mantissa = std::frexp(gamma * h / time, &exponent);
+  return std::ldexp(std::round(std::ldexp(mantissa, 24)), exponent - 24) * time;
 }
 
 std::array<double, Implicit::stages> Implicit::weights(double x) {
@@ -27,7 +27,7 @@ std::array<double, Implicit::stages> Implicit::weights(double x) {
 
 void Implicit::step(LinearOperator& op, double t, double h, std::span<double> y, std::span<const double>) {
   assert(op.solves_shifted() && y.size() == increment_.size());
-  const double s = shift_of(h);
+  const double s = shift_of(h, time_);
   converged_ = op.prepare_shifted(s);
   if (!converged_) return;
   if (h / s != weights_for_) {

@@ -9,9 +9,9 @@
 // left half plane. Of the methods with one real pole and order = solves that are L-stable (2 to 6 and 8
 // solves exist) this one has the smallest error for the same number of solves at every size of the error.
 //
-// D y = s A (1 - s A)^-1 y, s = gamma h, is an increment: short steps lose no digits. s is taken to 24 bits
-// and the d_k are made for gamma = s / h, so that steps whose lengths differ by rounding share a factor;
-// R(-infinity) is then some 1e-6 at most instead of 0.
+// D y = s A (1 - s A)^-1 y, s = gamma h, is an increment: short steps lose no digits. s is taken to 24 bits,
+// as a part of a time that comes with the scene, and the d_k are made for gamma = s / h, so that steps whose
+// lengths differ by rounding share a factor; R(-infinity) is then some 1e-6 at most instead of 0.
 //
 // Forcing that is a polynomial in time of degree 5 at most joins the state: c_0' = 0, c_k' = c_{k-1}, c_k(0)
 // = [k = 0], y' = A y + sum c_k g^(k)(t). A motion that is a polynomial in time of degree 8 at most is
@@ -36,7 +36,8 @@ class Implicit final : public Integrator {
   static constexpr int stages = 8;
   static constexpr double gamma = 0.2343731596055835579475589;  // 1 / gamma: a zero of Laguerre's L_8
 
-  explicit Implicit(std::size_t size) : increment_(size), next_(size) {}
+  // time: [s], of the scene's own; in other units of time all else is the same.
+  explicit Implicit(std::size_t size, double time = 1.0) : time_(time), increment_(size), next_(size) {}
 
   void step(LinearOperator& op, double t, double h, std::span<double> y,
             std::span<const double> rate) override;
@@ -47,10 +48,11 @@ class Implicit final : public Integrator {
 
   // d_1 .. d_8 for x = 1 / gamma.
   static std::array<double, stages> weights(double x);
-  // gamma h to 24 bits.
-  static double shift_of(double h);
+  // gamma h to 24 bits of its part of `time`.
+  static double shift_of(double h, double time);
 
  private:
+  double time_;
   std::array<double, stages> weights_{};
   double weights_for_ = 0.0;
   std::vector<double> increment_, next_;

@@ -78,14 +78,14 @@ class Rk4 final : public Integrator {
 }  // namespace
 
 std::unique_ptr<Integrator> make_integrator(IntegratorKind kind, std::size_t size,
-                                            const ExponentialSettings& settings) {
+                                            const IntegratorSettings& settings) {
   switch (kind) {
     case IntegratorKind::euler:
       return std::make_unique<Euler>(size);
     case IntegratorKind::exponential:
       return std::make_unique<Exponential>(size, settings);
     case IntegratorKind::implicit:
-      return std::make_unique<Implicit>(size);
+      return std::make_unique<Implicit>(size, settings.time);
     case IntegratorKind::automatic:
     case IntegratorKind::rk4:
       break;

@@ -45,7 +45,7 @@ struct Simulation::Impl {
         spectrum(schedule.spectrum()),
         body(make_body(scene, model, options.threads)),
         integrator(make_integrator(scene.time.integrator, body->size(),
-                                   exponential_settings(scene, spectrum, schedule.interval_count()))),
+                                   integrator_settings(scene, spectrum, schedule.interval_count()))),
         w_lambda(Vector::Zero(static_cast<Eigen::Index>(model.layout.part))),
         w_mu(w_lambda),
         pull_lambda(w_lambda),
@@ -201,7 +201,7 @@ std::span<const double> Simulation::reaction_at(std::span<const HeldDof> held) {
 
 SavedState Simulation::save() const {
   const auto copy = [](std::span<const double> x) { return std::vector<double>(x.begin(), x.end()); };
-  SavedState saved{time(), copy(u()), copy(v()), {}, {}, {}};
+  SavedState saved{time(), copy(u()), copy(v()), {}, {}, {}, {}};
   if (impl_->model.has_several_materials()) {
     for (const BranchPart& branch : impl_->model.layout.branches) {
       const double* const w = impl_->now().state().data() + branch.offset;
@@ -218,7 +218,7 @@ SavedState Simulation::save() const {
 
 void Simulation::resume(const SavedState& saved) {
   const FlushDenormals flush;
-  impl_->stepping.resume(saved.t, impl_->state_from(saved));
+  impl_->stepping.resume(saved.t, impl_->state_from(saved), saved.energies);
 }
 
 Snapshot Simulation::snapshot() const {
@@ -283,8 +283,8 @@ Energies Simulation::energies() const {
   const EnergySample& now = impl_->now().sample(time());
   const bool asked = impl_->asked.energies;
   return {now.kinetic, now.stored,
-          asked && stepping.books_dissipated() ? stepping.book().dissipated() : not_asked,
-          asked && stepping.books_work() ? stepping.book().work() : not_asked};
+          asked && stepping.books_dissipated() ? stepping.book().all_dissipated() : not_asked,
+          asked && stepping.books_work() ? stepping.book().all_work() : not_asked};
 }
 
 std::string_view Simulation::kernel() const {

@@ -31,12 +31,16 @@ StepLimits choose_step(const Scene& scene, const Spectrum& spectrum, std::string
   const bool given = settings.step > 0.0;
   if (limit == 0.0 && !(given && options.allow_unstable)) {
     const char* const remedy = given ? "allow it" : "give a step and allow it";
+    // Of a bound it is only known that it cannot be told from 0.
+    const bool unknown = stable_step_is_bound(spectrum, settings.integrator);
     refuse(scene,
            fmt::format(
-               "{}: no step of {} is stable here, some vibrations are not damped: use \"rk4\", or {} "
-               "(--allow-unstable)",
+               "{}: no step of {} {} here, some vibrations {}: use \"rk4\", or {} (--allow-unstable)",
                given ? fmt::format("step = {:g} s", settings.step) : fmt::format("integrator = \"{}\"", name),
-               given ? name : std::string_view("it"), remedy));
+               given ? name : std::string_view("it"), unknown ? "can be promised to be stable" : "is stable",
+               unknown ? "may hardly be damped (a material that does not relax, in a body too large to tell)"
+                       : "are not damped",
+               remedy));
   }
   if (given && settings.step > limit * (1.0 + 1e-12) && !options.allow_unstable) {
     refuse(scene,
@@ -59,8 +63,7 @@ StepLimits choose_step(const Scene& scene, const Spectrum& spectrum, std::string
   return {limit, bound};
 }
 
-ExponentialSettings exponential_settings(const Scene& scene, const Spectrum& spectrum,
-                                         std::size_t intervals) {
+IntegratorSettings integrator_settings(const Scene& scene, const Spectrum& spectrum, std::size_t intervals) {
   const TimeSettings& settings = scene.time;
   if (settings.integrator == IntegratorKind::exponential && has_columns(scene)) {
     throw Error(Error::Kind::input,
@@ -70,7 +73,7 @@ ExponentialSettings exponential_settings(const Scene& scene, const Spectrum& spe
   const double rate =
       settings.step > 0.0 ? std::max(settings.frame_rate, 1.0 / settings.step) : settings.frame_rate;
   const double steps = std::ceil(settings.duration * rate) + static_cast<double>(intervals);
-  return {spectrum.omega_max, spectrum.largest_rate(), settings.tolerance / steps};
+  return {spectrum.omega_max, spectrum.largest_rate(), settings.tolerance / steps, 1.0 / settings.frame_rate};
 }
 
 }  // namespace rheo

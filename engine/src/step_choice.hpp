@@ -29,7 +29,7 @@ StepLimits choose_step(const Scene& scene, const Spectrum& spectrum, std::string
 // No stable limit: steps go from event to event and output to output, too long for a quadrature.
 bool takes_long_steps(IntegratorKind integrator);
 
-// intervals: between events.
-ExponentialSettings exponential_settings(const Scene& scene, const Spectrum& spectrum, std::size_t intervals);
+// What each of the integrators has to know. intervals: between events.
+IntegratorSettings integrator_settings(const Scene& scene, const Spectrum& spectrum, std::size_t intervals);
 
 }  // namespace rheo

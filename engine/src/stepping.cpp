@@ -26,9 +26,12 @@ constexpr double motion_lag = 20.0;  // of a motion's way: what one step over al
 // an unstable run uses that up within some tens of steps.
 constexpr int most_excuses = 12;
 constexpr double excused_growth = 4.0;
-// Of all energy that went in, where the step is beyond the stable one and the work is known to rounding; with
-// general constraints but for what they let drift.
+// Where the step is beyond the stable one: of the energy that went in, where the work is known to rounding;
+// with general constraints but for what they let drift; and by how much Euler's energy may rise before it
+// falls.
 constexpr double unstable_slack = 1e-6;
+constexpr double euler_overshoot = 1e-3;
+constexpr double cancelled_rounding = 1e-12;  // of loads and constraint forces that cancel each other
 constexpr double unstable_slack_with_constraints = 1e-2;
 // Of the way that unresisted loads would make in a step: constraint forces cancel them but for rounding.
 constexpr double cancelled_loads = 1e-6;
@@ -80,9 +83,9 @@ bool Stepping::books_work() const {
          (scene_.moves.empty() && std::all_of(scene_.tractions.begin(), scene_.tractions.end(),
                                               [](const Traction& t) { return t.keys.size() == 1; }));
 }
-// By parts exact, and nothing but constant loads does any.
-bool Stepping::knows_work() const {
-  return scene_.time.integrator == IntegratorKind::rk4 && hands_ == nullptr && scene_.moves.empty() &&
+// Their work is exact by parts, and nothing else does any.
+bool Stepping::has_constant_loads() const {
+  return hands_ == nullptr && scene_.moves.empty() &&
          std::all_of(scene_.tractions.begin(), scene_.tractions.end(),
                      [](const Traction& t) { return t.keys.size() == 1; });
 }
@@ -133,6 +136,10 @@ void Stepping::enter_from(double begin) {
   }
   if (begins || other_constraints) note_violations();
   if (interval_.moving) note_motions();
+  if (is_beyond_limit()) {
+    const EnergySample& now = readings_.sample(time_);
+    begun_ = {now.kinetic + now.stored, book_.work(), book_.turnover(), book_.net_turnover()};
+  }
 }
 
 double Stepping::violation(std::size_t column) {
@@ -262,11 +269,16 @@ std::optional<Divergence> Stepping::check_divergence() {
   return divergence_now();
 }
 
+// Beyond the limit what matters is what the body held when the loads and constraints of now began: what was
+// spent before must not excuse what grows.
 double Stepping::explained_energy() const {
-  double slack = 1.0;
-  if (is_beyond_limit() && knows_work())
-    slack = interval_.solver->columns().empty() ? unstable_slack : unstable_slack_with_constraints;
-  return book_.work() + slack * book_.turnover();
+  if (!is_beyond_limit() || !has_constant_loads()) return book_.work() + book_.turnover();
+  const bool euler = scene_.time.integrator == IntegratorKind::euler;
+  double slack = euler ? 1.0 : unstable_slack;
+  if (!euler && !interval_.solver->columns().empty()) slack = unstable_slack_with_constraints;
+  return (1.0 + (euler ? euler_overshoot : unstable_slack)) * begun_.energy + (book_.work() - begun_.work) +
+         slack * (book_.net_turnover() - begun_.net_turnover) +
+         cancelled_rounding * (book_.turnover() - begun_.turnover);
 }
 
 // How far rounding may have moved a body whose constraints held against all of its loads.
@@ -300,7 +312,7 @@ void Stepping::attach(Hands& hands, StepLimits limits) {
   enter_now();
 }
 
-void Stepping::resume(double t, std::span<const double> y) {
+void Stepping::resume(double t, std::span<const double> y, const std::optional<Energies>& before) {
   std::copy(y.begin(), y.end(), readings_.state().begin());
   body_.load(y);
   readings_.state_changed();
@@ -317,6 +329,9 @@ void Stepping::resume(double t, std::span<const double> y) {
   // What it holds has gone in before.
   const EnergySample& now = readings_.sample(time_);
   book_.allow(now.kinetic + now.stored);
+  if (!before) return;
+  const double jump = (now.kinetic + now.stored) - (before->kinetic + before->stored);
+  book_.go_on(before->dissipated, before->work + jump - book_.work());
 }
 
 std::optional<Divergence> Stepping::advance(double t) {

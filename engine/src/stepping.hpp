@@ -39,8 +39,9 @@ class Stepping {
   // At a time in the current interval the hands changed what they do.
   void enter_now() { enter_from(time_); }
 
-  // Goes on from a state in the mesh's order at a time, as if the scene began there.
-  void resume(double t, std::span<const double> y);
+  // Goes on from a state in the mesh's order at a time, as if the scene began there. before: of that state by
+  // the parameters of then; what the energies jump by is work.
+  void resume(double t, std::span<const double> y, const std::optional<Energies>& before);
 
   // All but the state of what the next calls hang on (Snapshot), and back with that state in the mesh's order.
   // Not of one under hands.
@@ -54,7 +55,7 @@ class Stepping {
   const EnergyBook& book() const { return book_; }
   // Whether the quadrature over a step gives all of the work, and of what is dissipated.
   bool books_work() const;
-  bool knows_work() const;
+  bool has_constant_loads() const;
   bool is_beyond_limit() const { return limits_.bound > limits_.stable; }  // as the user allowed
   double explained_energy() const;
   double cancelled_way();
@@ -91,6 +92,10 @@ class Stepping {
   Holds holds_;
   Hands* hands_ = nullptr;
   Interval interval_, next_;
+  // The energy and the book when it began.
+  struct Begun {
+    double energy = 0.0, work = 0.0, turnover = 0.0, net_turnover = 0.0;
+  } begun_;
   bool entered_ = false;
   std::size_t index_ = 0;
   double time_ = 0.0;

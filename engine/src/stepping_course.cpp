@@ -13,6 +13,7 @@ void Stepping::put_course(ByteWriter& out) {
   out.put(time_);
   out.put(largest_step_);
   out.put(book_);
+  out.put(begun_);
   out.put(static_cast<std::uint64_t>(resting_ ? 1 : 0));
   out.put(steps_since_look_);
   out.put_list(allowed_violation_);
@@ -36,6 +37,7 @@ void Stepping::get_course(ByteReader& in, std::span<const double> y) {
   time_ = in.get<double>();
   largest_step_ = in.get<double>();
   book_ = in.get<EnergyBook>();
+  begun_ = in.get<Begun>();
   resting_ = in.get<std::uint64_t>() != 0;
   steps_since_look_ = in.get<std::int64_t>();
   allowed_violation_ = in.get_list<double>();

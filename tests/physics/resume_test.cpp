@@ -49,18 +49,54 @@ TEST(Resume, AnotherMaterialBeginsWithTheSameState) {
   Scene other = scene;
   other.material.mu_ela *= 4.0;
   other.material.density *= 2.0;
-  Live next(other, live_settings(other), live.simulation().save());
+  SavedState saved = live.simulation().save();
+  saved.energies = live.simulation().energies();
+  Live next(other, live_settings(other), saved);
   EXPECT_EQ(next.ticks(), 30);
   EXPECT_EQ(next.time(), live.time());
   EXPECT_EQ(largest_difference(live.simulation().u(), next.simulation().u()), 0.0);
   EXPECT_EQ(largest_difference(live.simulation().w_mu(), next.simulation().w_mu()), 0.0);
+  const auto balance = [](const Live& live) {
+    const Energies e = live.simulation().energies();
+    return e.kinetic + e.stored + e.dissipated - e.work;
+  };
   const Energies start = next.simulation().energies();
+  const double before = start.kinetic + start.stored;
+  EXPECT_NEAR(balance(next), balance(live), 1e-14 * start.work);
   for (int k = 0; k < 100; ++k) ASSERT_FALSE(next.tick());
   EXPECT_EQ(next.ticks(), 130);
-  const Energies now = next.simulation().energies();
-  const double before = start.kinetic + start.stored;
   // RK4's order in its quadrature: what one step of a thirtieth of the fastest period makes of it.
-  EXPECT_NEAR(now.kinetic + now.stored + now.dissipated - now.work, before, 1e-3 * before);
+  EXPECT_NEAR(balance(next), balance(live), 1e-3 * before);
+}
+
+// What the energies jump by is work of the change: twice the density, twice the kinetic energy; twice the
+// moduli, half of what the same residual forces hold.
+TEST(Resume, AChangesEnergyIsItsWork) {
+  for (const Mass mass : {Mass::lumped, Mass::consistent}) {
+    const Scene scene = live_block(mass);
+    Live live(scene, live_settings(scene));
+    for (int k = 0; k < 30; ++k) {
+      act(live, k);
+      ASSERT_FALSE(live.tick());
+    }
+    const Energies before = live.simulation().energies();
+    EXPECT_GT(before.kinetic, 0.0);
+    EXPECT_GT(before.dissipated, 0.0);
+    Scene heavy = scene, stiff = scene;
+    heavy.material.density *= 2.0;
+    stiff.material.lambda_ela *= 2.0, stiff.material.mu_ela *= 2.0;
+    const auto after = [&](const Scene& other) {
+      SavedState saved = live.simulation().save();
+      saved.energies = before;
+      return Live(other, live_settings(other), saved).simulation().energies();
+    };
+    const Energies with_mass = after(heavy), with_moduli = after(stiff), as_before = after(scene);
+    const double rounding = 1e-13 * (before.work + before.kinetic + before.stored);
+    EXPECT_NEAR(with_mass.work - before.work, before.kinetic, rounding);
+    EXPECT_NEAR(with_moduli.work - before.work, -0.5 * before.stored, rounding);
+    EXPECT_NEAR(as_before.work, before.work, rounding);
+    for (const Energies& e : {with_mass, with_moduli, as_before}) EXPECT_EQ(e.dissipated, before.dissipated);
+  }
 }
 
 }  // namespace

@@ -183,8 +183,13 @@ TEST(Implicit, LosesNoDigitsInShortSteps) {
 
 TEST(Implicit, StepsThatDifferByRoundingShareAShift) {
   for (const double h : {1.0 / 60, 3e-7, 1e5, 1e-29, 0.1234}) {
-    EXPECT_EQ(Implicit::shift_of(h), Implicit::shift_of(h * (1 + 1e-13)));
-    EXPECT_NEAR(Implicit::shift_of(h) / (Implicit::gamma * h), 1.0, 1.2e-7);
+    for (const double time : {1.0, 1.0 / 60, 1e3}) {
+      const double s = Implicit::shift_of(h, time);
+      EXPECT_EQ(s, Implicit::shift_of(h * (1 + 1e-13), time));
+      EXPECT_NEAR(s / (Implicit::gamma * h), 1.0, 1.2e-7);
+      // In other units of time it is the same.
+      EXPECT_NEAR(Implicit::shift_of(h / 3600, time / 3600) * 3600, s, 1e-14 * s);
+    }
   }
 }
 

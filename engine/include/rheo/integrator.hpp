@@ -77,11 +77,14 @@ class LinearOperator {
 };
 
 // What `exponential` has to know: a box that holds the spectrum, -rate <= Re s <= 0 and |Im s| <= frequency,
-// and the error allowed a step, relative to the largest size so far of each part of the state.
-struct ExponentialSettings {
+// and the error allowed a step, relative to the largest size so far of each part of the state. And
+// `implicit`: a time that comes with the scene, beside which steps are alike that differ by rounding; with a
+// time of its own the answer would hang on the unit.
+struct IntegratorSettings {
   double frequency = 0.0;  // [1/s]
   double rate = 0.0;       // [1/s]
   double tolerance = 1e-12;
+  double time = 1.0;  // [s]
 };
 
 class Integrator {
@@ -103,8 +106,8 @@ class Integrator {
   virtual int evaluations_per_step() const { return 0; }
 };
 
-// The integrator for a state of `size` numbers; all its memory is taken here. The settings are exponential's.
+// The integrator for a state of `size` numbers; all its memory is taken here.
 std::unique_ptr<Integrator> make_integrator(IntegratorKind kind, std::size_t size,
-                                            const ExponentialSettings& settings = {});
+                                            const IntegratorSettings& settings = {});
 
 }  // namespace rheo

@@ -66,7 +66,8 @@ struct HandReading {
 class Live {
  public:
   Live(Scene scene, LiveSettings settings);
-  // Goes on from the state of another one with the same mesh and rate, at a tick's end. Hands hold and push
+  // Goes on from the state of another one with the same mesh and rate, at a tick's end, with other parameters
+  // as it may be; given the energies of then (SavedState), they balance over the change. Hands hold and push
   // nothing yet, and a session says nothing of what was before.
   Live(Scene scene, LiveSettings settings, const SavedState& saved);
   Live(Live&&) noexcept;

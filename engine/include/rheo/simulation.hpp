@@ -41,7 +41,7 @@ struct Energies {
   double stored = 0.0;      // 1/2 w_l^T J_l w_l / lambda_ela + 1/2 w_m^T J_m w_m / mu_ela, of each branch,
                             // + 1/2 u^T (elastic_l J_l + elastic_m J_m) u
   double dissipated = 0.0;  // since the start, by a quadrature of the integrator's order
-  double work = 0.0;        // of loads, moving constraints and impulses, since the start, likewise
+  double work = 0.0;        // of loads, moving constraints, impulses and changes of parameters, likewise
   // Not known (NaN) with the exponential and implicit integrators, whose steps are too long for a quadrature:
   // dissipated, unless nothing relaxes or is viscous; work, where nodes are moved or a traction has several
   // keys.
@@ -89,6 +89,7 @@ struct SavedState {
     std::vector<double> w;
   };
   std::vector<Part> parts;
+  std::optional<Energies> energies;  // of then, where books are to go on; save() leaves it open
 };
 
 // All of a simulation, to the bit, between two calls of advance.
@@ -155,8 +156,10 @@ class Simulation {
   std::optional<Divergence> advance(double t);
 
   // The state now; and going on from one that a simulation of the same mesh had, with this one's parameters.
-  // Branches that are not in both begin at zero; dissipated and work count from there. What the scene holds
-  // or moves is held where it is then.
+  // Branches that are not in both begin at zero. What the scene holds or moves is held where it is then.
+  // dissipated and work count from there. Where saved.energies are given (energies() of then), they go on
+  // from these, and what kinetic + stored jump by, because density or moduli are others now or because the
+  // scene stops what it holds, is booked as work: kinetic + stored + dissipated - work is what it was.
   SavedState save() const;
   void resume(const SavedState& saved);
 
