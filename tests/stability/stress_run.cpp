@@ -75,41 +75,50 @@ Course course_of(const Scene& scene, const SimulationOptions& options) {
 
 }  // namespace
 
-StressOutcome stress(const StressScene& stress, IntegratorKind integrator, const StressLength& length) {
+StressOutcome stress(const StressScene& stress, const TrueSpectrum& truth, IntegratorKind integrator,
+                     const StressLength& length) {
   StressOutcome out;
-  const auto broken = [&](std::string text) { out.broken.push_back(std::move(text)); };
+  const auto broken = [&](Promise promise, std::string text) {
+    out.broken.push_back({promise, std::move(text)});
+  };
   const Scene first = in_steps(stress.scene, integrator, 1e-300, {1, 1});
   Scene probe = first;
   probe.time.step = 1.0;
   probe.time.duration = 1.0;
   probe.time.frame_rate = 1.0;
   out.predicted = Simulation(probe, {.allow_unstable = true}).stable_step();
-  out.truth = true_limit(stress.scene, integrator);
+  out.truth = truth.limit(integrator);
   if (out.truth.determined() && out.predicted > out.truth.high * (1 + 1e-9))
-    broken(fmt::format("predicted {:.6g} s, true limit {:.6g} s", out.predicted, out.truth.high));
+    broken(Promise::limit,
+           fmt::format("predicted {:.6g} s, true limit {:.6g} s", out.predicted, out.truth.high));
   if (out.truth.determined() && out.predicted < 0.95 * out.truth.low)
-    broken(fmt::format("predicted {:.4f} of the true limit", out.predicted / out.truth.low));
+    broken(Promise::nearness,
+           fmt::format("predicted {:.4f} of the true limit", out.predicted / out.truth.low));
   if (std::isfinite(out.predicted) && out.predicted > 0.0) {
     const Course course = course_of(in_steps(stress.scene, integrator, 0.99 * out.predicted, length), {});
     out.worst_energy = course.worst_energy;
-    if (course.diverged) broken("diverged at 0.99 of the predicted step");
-    if (!course.finite) broken("a number that is not finite");
-    if (course.worst_energy > 1 + 1e-9)
-      broken(fmt::format("energy {:.9g} of the work at 0.99 of the predicted step", course.worst_energy));
+    if (course.diverged) broken(Promise::stable, "diverged at 0.99 of the predicted step");
+    if (!course.finite) broken(Promise::stable, "a number that is not finite");
+    // Euler's steps feed energy, h^2 / 2 |y'|^2 in its measure, before what is damped takes it back.
+    const double overshoot = integrator == IntegratorKind::euler ? 1e-3 : 1e-9;
+    if (course.worst_energy > 1 + overshoot)
+      broken(Promise::stable,
+             fmt::format("energy {:.9g} of the work at 0.99 of the predicted step", course.worst_energy));
   }
   if (!out.truth.determined() || !std::isfinite(out.truth.high) || !(out.truth.high > 0.0)) return out;
   const Scene beyond = in_steps(stress.scene, integrator, 1.05 * out.truth.high, length);
   try {
     const Simulation accepted(beyond);
     out.refused_beyond = false;
-    broken("1.05 of the true limit is accepted");
+    broken(Promise::refused, "1.05 of the true limit is accepted");
   } catch (const Error&) {
   }
   const Course wild = course_of(beyond, {.allow_unstable = true});
   out.grew = wild.diverged;
-  if (!wild.finite) broken("beyond the limit: a number that is not finite");
+  if (!wild.finite) broken(Promise::noticed, "beyond the limit: a number that is not finite");
   if (wild.worst_energy > 1.001)
-    broken(fmt::format("beyond the limit: an output shows {:.4g} of the work", wild.worst_energy));
+    broken(Promise::noticed,
+           fmt::format("beyond the limit: an output shows {:.4g} of the work", wild.worst_energy));
   return out;
 }
 

@@ -10,14 +10,29 @@
 
 namespace rheo::test {
 
+enum class Promise {
+  limit,     // no step beyond the true limit is called stable
+  nearness,  // what is called stable is 95 % of the true limit at least
+  stable,   // at 0.99 of it nothing is taken for a divergence or grows beyond the work, by Euler beyond 1.001
+  refused,  // 1.05 of the true limit is refused
+  noticed   // allowed, it ends in a divergence before an output shows more than 1.001 of the work
+};
+inline constexpr Promise promises[] = {Promise::limit, Promise::nearness, Promise::stable, Promise::refused,
+                                       Promise::noticed};
+
+struct Broken {
+  Promise promise;
+  std::string text;
+};
+
 struct StressOutcome {
   double predicted = 0.0;
   TrueLimit truth;
   double worst_energy =
       0.0;  // (kinetic + stored) / work at 0.99 of the prediction, the largest at the outputs
-  bool refused_beyond = true;       // 1.05 of the truth, without leave
-  bool grew = false;                // run with leave: diverged, and said so
-  std::vector<std::string> broken;  // promises; empty: all kept
+  bool refused_beyond = true;  // 1.05 of the truth, without leave
+  bool grew = false;           // run with leave: diverged, and said so
+  std::vector<Broken> broken;  // empty: all kept
 };
 
 struct StressLength {
@@ -25,6 +40,8 @@ struct StressLength {
   int outputs = 20;
 };
 
-StressOutcome stress(const StressScene& stress, IntegratorKind integrator, const StressLength& length = {});
+// truth: the scene's.
+StressOutcome stress(const StressScene& stress, const TrueSpectrum& truth, IntegratorKind integrator,
+                     const StressLength& length = {});
 
 }  // namespace rheo::test

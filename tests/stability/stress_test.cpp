@@ -12,23 +12,25 @@ class Stress : public testing::TestWithParam<IntegratorKind> {};
 TEST_P(Stress, NoPromiseIsBroken) {
   for (int number = 0; number < 40; ++number) {
     const StressScene scene = stress_scene(1, number);
-    const StressOutcome outcome = stress(scene, GetParam(), {2000, 20});
-    for (const std::string& text : outcome.broken)
+    const StressOutcome outcome = stress(scene, TrueSpectrum(scene.scene), GetParam(), {2000, 20});
+    for (const Broken& each : outcome.broken)
       ADD_FAILURE() << number << " (" << scene.mesh << ", " << scene.material << ", " << scene.constraints
-                    << "): " << text;
+                    << "): " << each.text;
   }
 }
 
 // Modes of tiny triangles that hardly had a share in Lanczos' start; a tridiagonal matrix over so many
-// decades that QR iteration does not end.
+// decades that QR iteration does not end; several materials that were too many for their eigenvalues; loads
+// that constraints cancel, whose turnover excused what grew.
 TEST(StressOfRk4, NoPromiseIsBrokenWhereOneWas) {
-  for (const int number : {1405, 1625, 1629, 2309}) {
-    const StressOutcome outcome = stress(stress_scene(1, number), IntegratorKind::rk4, {2000, 20});
-    for (const std::string& text : outcome.broken) ADD_FAILURE() << number << ": " << text;
+  for (const int number : {1405, 1625, 1629, 2309, 208, 555}) {
+    const StressScene scene = stress_scene(1, number);
+    const StressOutcome outcome = stress(scene, TrueSpectrum(scene.scene), IntegratorKind::rk4);
+    for (const Broken& each : outcome.broken) ADD_FAILURE() << number << ": " << each.text;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Explicit, Stress, testing::Values(IntegratorKind::rk4),
+INSTANTIATE_TEST_SUITE_P(Explicit, Stress, testing::Values(IntegratorKind::rk4, IntegratorKind::euler),
                          [](const auto& i) { return i.param == IntegratorKind::rk4 ? "Rk4" : "Euler"; });
 
 }  // namespace

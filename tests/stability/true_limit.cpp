@@ -143,35 +143,43 @@ std::vector<std::complex<Real>> eigenvalues_of(const Operator& op) {
 
 }  // namespace
 
-TrueLimit true_limit(const Scene& scene, IntegratorKind integrator) {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
+TrueSpectrum::TrueSpectrum(const Scene& scene) {
   const Operator op = operator_of(scene);
-  const std::vector<std::complex<Real>> values = eigenvalues_of(op);
+  values_ = eigenvalues_of(op);
   Real largest = 0.0L;
-  for (const auto& s : values) largest = std::max(largest, std::abs(s));
-  for (const Real rate : op.rates) largest = std::max(largest, rate);
-  // What QR's rounding may move an eigenvalue by: the operator is nearly normal.
-  const Real moved = 1e-17L * largest;
+  for (const auto& s : values_) largest = std::max(largest, std::abs(s));
+  for (const Real rate : op.rates) {
+    largest = std::max(largest, rate);
+    rates_.push_back(static_cast<double>(rate));
+  }
+  moved_ = 1e-17L * largest;
+  // Held degrees of freedom are eliminated unless asked otherwise; a general constraint brings its own pole.
+  const bool columns = !scene.constraints.empty() ||
+                       (scene.time.constraints == ConstraintMethod::baumgarte && !scene.fixes.empty());
+  if (columns && scene.time.baumgarte > 0.0) rates_.push_back(scene.time.baumgarte);
+}
+
+TrueLimit TrueSpectrum::limit(IntegratorKind integrator) const {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
   TrueLimit limit{infinite, infinite};
-  for (const auto& s : values) {
-    if (std::abs(s) <= 10 * moved) continue;  // rigid motion
+  for (const auto& s : values_) {
+    if (std::abs(s) <= 10 * moved_) continue;  // rigid motion
     const auto with = [&](Real shift) {
       return stable_step_of(
           {static_cast<double>(std::min(s.real() + shift, 0.0L)), static_cast<double>(s.imag())}, integrator);
     };
-    limit.low = std::min({limit.low, with(moved), with(-moved)});
-    limit.high = std::min(limit.high, std::max(with(moved), with(-moved)));
+    limit.low = std::min({limit.low, with(moved_), with(-moved_)});
+    limit.high = std::min(limit.high, std::max(with(moved_), with(-moved_)));
   }
-  const auto include = [&](double s) {
-    limit.low = std::min(limit.low, stable_step_of(s, integrator));
-    limit.high = std::min(limit.high, stable_step_of(s, integrator));
-  };
-  for (const Real rate : op.rates) include(-static_cast<double>(rate));
-  // Held degrees of freedom are eliminated unless asked otherwise; a general constraint brings its own pole.
-  const bool columns = !scene.constraints.empty() ||
-                       (scene.time.constraints == ConstraintMethod::baumgarte && !scene.fixes.empty());
-  if (columns && scene.time.baumgarte > 0.0) include(-scene.time.baumgarte);
+  for (const double rate : rates_) {
+    limit.low = std::min(limit.low, stable_step_of(-rate, integrator));
+    limit.high = std::min(limit.high, stable_step_of(-rate, integrator));
+  }
   return limit;
+}
+
+TrueLimit true_limit(const Scene& scene, IntegratorKind integrator) {
+  return TrueSpectrum(scene).limit(integrator);
 }
 
 }  // namespace rheo::test

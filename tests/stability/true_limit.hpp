@@ -12,6 +12,9 @@
 // Not here constraints that begin later than t = 0
 #pragma once
 
+#include <complex>
+#include <vector>
+
 #include "rheo/scene.hpp"
 
 namespace rheo::test {
@@ -21,6 +24,18 @@ namespace rheo::test {
 struct TrueLimit {
   double low = 0.0, high = 0.0;
   bool determined() const { return high <= 1.01 * low; }
+};
+
+// All eigenvalues, found once for any integrator.
+class TrueSpectrum {
+ public:
+  explicit TrueSpectrum(const Scene& scene);
+  TrueLimit limit(IntegratorKind integrator) const;
+
+ private:
+  std::vector<std::complex<long double>> values_;
+  std::vector<double> rates_;  // of what pulls at nothing, and Baumgarte's
+  long double moved_ = 0.0L;   // what QR's rounding may move an eigenvalue by: the operator is nearly normal
 };
 
 TrueLimit true_limit(const Scene& scene, IntegratorKind integrator);
