@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <string_view>
 #include <thread>
@@ -25,7 +26,8 @@ constexpr const char* exit_codes =
     "  0  done\n"
     "  2  wrong usage or scene: nothing was written\n"
     "  3  the simulation diverged: when, where and the stable step are named\n"
-    "  4  a file or folder could not be read or written, or no way to draw was found\n"
+    "  4  a file or folder could not be read or written, memory was out, or no way to draw was found\n"
+    "  130, 143  a run was stopped by SIGINT (Ctrl-C), SIGTERM: --resume goes on with it\n"
     "A failure writes one line to standard error that says what to do.\n";
 
 constexpr const char* examples =
@@ -35,6 +37,7 @@ constexpr const char* examples =
     "  rheo run beam.toml -o out/beam --vtu\n"
     "  rheo render beam.toml --color w_mu --size 1920x1080\n"
     "  rheo run beam.toml --integrator euler --step 1e-4 --force\n"
+    "  rheo run beam.toml --integrator euler --step 1e-4 --resume\n"
     "  rheo bench beam.toml --csv beam.csv\n"
     "  rheo view beam.toml --color w_mu\n";
 
@@ -47,8 +50,9 @@ constexpr int most_branches = 1000;
 struct Texts {
   std::string scene, folder, integrator, step, tolerance, accuracy, duration, frame_rate, threads;
   std::string size, color, branch, range, backend, sheet;
-  std::string kernel, csv, budget, seconds;
-  bool vtu = false, force = false, quiet = false, allow_unstable = false, no_energies = false, plot = false;
+  std::string kernel, csv, budget, seconds, checkpoint, from;
+  bool vtu = false, force = false, resume = false, quiet = false, allow_unstable = false, no_energies = false,
+       plot = false;
 };
 
 void add_time_options(CLI::App& command, Texts& texts) {
@@ -114,6 +118,23 @@ void add_output_options(CLI::App& command, Texts& texts) {
       ->group(group);
   command
       .add_flag("--force", texts.force, "replace what an earlier rheo wrote into DIR; other files there stay")
+      ->group(group);
+  command
+      .add_flag("--resume", texts.resume,
+                "go on with the run in DIR that was stopped or killed, from its latest\n"
+                "checkpoint: name the same scene and options")
+      ->group(group);
+  command
+      .add_option("--checkpoint", texts.checkpoint,
+                  "seconds of wall time between checkpoints, DIR/checkpoint.rheo; 0: at\n"
+                  "every output; default 10. Where it is given, that of the end is kept")
+      ->type_name("NUMBER|never")
+      ->group(group);
+  command
+      .add_option("--from", texts.from,
+                  "begin, at t = 0, with the shape, velocities and residual forces of this\n"
+                  "checkpoint of another run on the same mesh")
+      ->type_name("FILE")
       ->group(group);
   command.add_flag("--quiet", texts.quiet, "print nothing unless something fails")->group(group);
   command
@@ -372,6 +393,18 @@ Options read_values(const Texts& texts, const CLI::App& command) {
                     fmt::format("{} goes with --plot: without it check writes and draws nothing", other));
   }
   options.force = texts.force;
+  options.resume = texts.resume;
+  if (options.resume && options.force)
+    throw Failure(ExitCode::usage,
+                  "--resume and --force: one goes on with the run in DIR, the other replaces it");
+  if (given("--checkpoint")) {
+    options.checkpoint_seconds = checkpoint_interval("--checkpoint", texts.checkpoint);
+    options.keeps_checkpoint = std::isfinite(options.checkpoint_seconds);
+  }
+  if (given("--from")) {
+    if (texts.from.empty()) throw Failure(ExitCode::usage, "--from '': must be the path of a checkpoint");
+    options.from = texts.from;
+  }
   options.quiet = texts.quiet;
   options.threads = std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 4);
   if (given("--threads")) {

@@ -56,6 +56,10 @@ struct Options {
   bool vtu = false;
   bool plot = false;  // check: the material's curves into the folder
   bool force = false;
+  bool resume = false;
+  double checkpoint_seconds = 10.0;  // of wall time between checkpoints; 0: at every output; infinite: never
+  bool keeps_checkpoint = false;     // the end's: where the above was asked for
+  std::filesystem::path from;        // a checkpoint to begin with; empty: at rest
   rheo::SimulationOptions simulation;
   bool quiet = false;
 };

@@ -10,7 +10,10 @@ enum class ExitCode {
   done = 0,
   usage = 2,     // a wrong option, scene, mesh or folder
   diverged = 3,  // the simulation grew beyond what its energy explains
-  file = 4       // the system refused to read, write or draw
+  file = 4,      // the system refused to read, write or draw
+  // A run was told to stop, and did after the output in hand: 128 + the signal's number.
+  interrupted = 130,
+  terminated = 143
 };
 
 class Failure : public std::runtime_error {

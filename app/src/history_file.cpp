@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <iterator>
 #include <span>
 #include <string>
@@ -34,7 +35,22 @@ HistoryFile::HistoryFile(const std::filesystem::path& file, const rheo::Scene& s
   std::string header = "t,w_lambda_norm,w_mu_norm,u_max,kinetic,stored,dissipated,work";
   for (const rheo::Probe& probe : scene.probes)
     fmt::format_to(std::back_inserter(header), ",{0}_ux,{0}_uy,{0}_fx,{0}_fy", probe.name);
-  file_.write(header + "\n");
+  file_.append(header + "\n");
+}
+
+HistoryFile::HistoryFile(const std::filesystem::path& file, const GrowingFile::Mark& kept)
+    : file_(file, kept, 0, [this](std::string_view row) { see(row); }) {}
+
+// A row that was written here: 17 digits give the same numbers back. The header begins with a letter.
+void HistoryFile::see(std::string_view row) {
+  if (row.starts_with("t,")) return;
+  const std::string text(row);
+  const char* at = text.c_str();
+  for (std::vector<double>* column : {&times_, &w_lambda_norms_, &w_mu_norms_}) {
+    char* end = nullptr;
+    column->push_back(std::strtod(at, &end));
+    at = *end == ',' ? end + 1 : end;
+  }
 }
 
 void HistoryFile::record(rheo::Simulation& simulation, std::int64_t) {
@@ -52,7 +68,7 @@ void HistoryFile::record(rheo::Simulation& simulation, std::int64_t) {
     fmt::format_to(std::back_inserter(row), ",{:.17g},{:.17g},{:.17g},{:.17g}", reading.displacement.x,
                    reading.displacement.y, reading.force.x, reading.force.y);
   }
-  file_.write(row + "\n");
+  file_.append(row + "\n");
 }
 
 }  // namespace app

@@ -5,21 +5,24 @@
 //
 // Norms are Euclidean over all nodes, u_max is the largest |u| of a node.
 // Units    s, Pa m, m, J, N
-// Errors   rheo::Error::Kind::file
+// Errors   Failure(file)
 #pragma once
 
 #include <vector>
 
+#include "growing_file.hpp"
 #include "output_sink.hpp"
-#include "rheo/io/atomic_file.hpp"
 
 namespace app {
 
 class HistoryFile : public OutputSink {
  public:
   HistoryFile(const std::filesystem::path& file, const rheo::Scene& scene);
+  // Goes on with the rows that were kept.
+  HistoryFile(const std::filesystem::path& file, const GrowingFile::Mark& kept);
 
   void record(rheo::Simulation& simulation, std::int64_t k) override;
+  GrowingFile::Mark keep() { return file_.keep(); }
   // The file appears; without it nothing does.
   void commit() { file_.commit(); }
 
@@ -29,8 +32,10 @@ class HistoryFile : public OutputSink {
   const std::vector<double>& w_mu_norms() const { return w_mu_norms_; }
 
  private:
-  rheo::AtomicFile file_;
+  void see(std::string_view row);
+
   std::vector<double> times_, w_lambda_norms_, w_mu_norms_;
+  GrowingFile file_;
 };
 
 }  // namespace app

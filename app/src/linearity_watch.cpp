@@ -47,6 +47,17 @@ void LinearityWatch::record(rheo::Simulation& simulation, std::int64_t) {
   }
 }
 
+void LinearityWatch::put(rheo::ByteWriter& out) const {
+  for (const bool said : {inverted_, strained_, rotated_}) out.put(static_cast<std::uint64_t>(said ? 1 : 0));
+  out.put(static_cast<std::uint64_t>(warnings_.size()));
+  for (const std::string& warning : warnings_) out.put_text(warning);
+}
+
+void LinearityWatch::get(rheo::ByteReader& in) {
+  for (bool* said : {&inverted_, &strained_, &rotated_}) *said = in.get<std::uint64_t>() != 0;
+  for (auto left = in.get<std::uint64_t>(); left > 0; --left) warnings_.push_back(in.get_text());
+}
+
 void LinearityWatch::warn(const std::string& text) {
   warnings_.push_back(text);
   progress_.line("warning: " + text);

@@ -7,6 +7,7 @@
 
 #include "output_sink.hpp"
 #include "progress.hpp"
+#include "rheo/io/bytes.hpp"
 
 namespace app {
 
@@ -15,6 +16,9 @@ class LinearityWatch : public OutputSink {
   explicit LinearityWatch(Progress& progress) : progress_(progress) {}
 
   void record(rheo::Simulation& simulation, std::int64_t k) override;
+  // For a run that is to go on: what was said is not said again.
+  void put(rheo::ByteWriter& out) const;
+  void get(rheo::ByteReader& in);
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:

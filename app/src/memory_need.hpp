@@ -6,7 +6,9 @@
 // 500,000 nodes: rectangles 52 to 107, disks 80 to 133).
 //
 // Units    bytes
-// Errors   Failure(usage): estimate, limit and what to do
+// Errors   Failure(usage): estimate, what the machine has and what to do; Failure(file): likewise for the
+// limit
+//          that a shell has set (ulimit -v)
 #pragma once
 
 #include <fmt/format.h>
@@ -15,12 +17,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <string>
 
 #include "command_line.hpp"
 #include "failure.hpp"
 #include "rheo/simulation.hpp"
 
 namespace app {
+
+// Mapped by OSMesa with LLVM, its threads (as many as processors, 16 at most) and the encoders' [bytes]; 0.77
+// GB where nothing limits two processors, of which some is given up under a limit.
+inline double drawing_addresses() {
+  return 0.55e9 + 0.075e9 * std::clamp<double>(static_cast<double>(sysconf(_SC_NPROCESSORS_ONLN)), 1.0, 16.0);
+}
 
 inline double implicit_need(const rheo::Scene& scene) {
   const double nodes = scene.mesh.node_count();
@@ -51,27 +61,47 @@ inline double memory_need(const rheo::Scene& scene, const Options& options) {
   return need;
 }
 
+// The shell's limit (ulimit -v); infinite where there is none.
+inline double address_space_limit() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+    return std::numeric_limits<double>::infinity();
+  return static_cast<double>(limit.rlim_cur);
+}
+
+// ", the shell's limit (ulimit -v) is 0.5 GB", or nothing.
+inline std::string limit_text() {
+  const double limit = address_space_limit();
+  if (std::isinf(limit)) return {};
+  return fmt::format(", the shell's limit (ulimit -v) is {:.3g} GB", limit * 1e-9);
+}
+
+// "640000 nodes need about 0.58 GB of memory, ...: take a coarser mesh"; extra: beside the scene's own.
+inline std::string memory_text(const rheo::Scene& scene, const Options& options,
+                               const std::string& limit = {}, double extra = 0.0) {
+  return fmt::format("{} nodes{} need about {:.3g} GB of memory{}: take a coarser mesh{}{}",
+                     scene.mesh.node_count(),
+                     scene.time.integrator == rheo::IntegratorKind::implicit ? " with implicit" : "",
+                     (memory_need(scene, options) + extra) * 1e-9, limit,
+                     scene.material.mass == rheo::Mass::lumped ? "" : " or mass = \"lumped\"",
+                     options.command == Command::render  ? ", or smaller pictures (--size)"
+                     : options.command == Command::bench ? ", or fewer outputs (--frame-rate, --duration)"
+                                                         : "");
+}
+
 inline void require_memory(const rheo::Scene& scene, const Options& options) {
   const double need = memory_need(scene, options);
-  const auto refuse_beyond = [&](double limit, const char* whose) {
-    if (need <= limit) return;
-    throw Failure(
-        ExitCode::usage,
-        fmt::format("{} nodes{} need about {:.3g} GB of memory, {} {:.3g} GB: take a coarser mesh{}{}",
-                    scene.mesh.node_count(),
-                    scene.time.integrator == rheo::IntegratorKind::implicit ? " with implicit" : "",
-                    need * 1e-9, whose, limit * 1e-9,
-                    scene.material.mass == rheo::Mass::lumped ? "" : " or mass = \"lumped\"",
-                    options.command == Command::render  ? ", or smaller pictures (--size)"
-                    : options.command == Command::bench ? ", or fewer outputs (--frame-rate, --duration)"
-                                                        : ""));
-  };
   const double pages = static_cast<double>(sysconf(_SC_PHYS_PAGES));
   const double page = static_cast<double>(sysconf(_SC_PAGESIZE));
-  if (pages > 0.0 && page > 0.0) refuse_beyond(pages * page, "this machine has");
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-    refuse_beyond(static_cast<double>(limit.rlim_cur), "the shell's limit (ulimit -v) is");
+  if (pages > 0.0 && page > 0.0 && need > pages * page)
+    throw Failure(
+        ExitCode::usage,
+        memory_text(scene, options, fmt::format(", this machine has {:.3g} GB", pages * page * 1e-9)));
+  // A limit counts addresses, used or not: libraries that draw map many, some of them end the program where
+  // they get none.
+  const double mapped = options.command == Command::render ? drawing_addresses() : 0.0;
+  if (need + mapped > address_space_limit())
+    throw Failure(ExitCode::file, memory_text(scene, options, limit_text(), mapped));
 }
 
 }  // namespace app

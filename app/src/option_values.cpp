@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -108,6 +109,15 @@ double number_between(const std::string& option, const std::string& text, double
 }
 
 }  // namespace
+
+double checkpoint_interval(const std::string& option, const std::string& text) {
+  if (text == "never") return std::numeric_limits<double>::infinity();
+  const std::optional<double> value = whole_text<double>(text);
+  constexpr double longest = 1e9;
+  if (!value || !(*value >= 0.0 && *value <= longest))
+    refuse(option, text, fmt::format("must be never or seconds from 0 to {:g}", longest));
+  return *value;
+}
 
 double tolerance_value(const std::string& option, const std::string& text) {
   return number_between(option, text, rheo::finest_tolerance, rheo::coarsest_tolerance);

@@ -11,7 +11,8 @@
 namespace app {
 
 double positive_number(const std::string& option, const std::string& text, const std::string& unit);
-double step_value(const std::string& option, const std::string& text);  // "auto": 0
+double step_value(const std::string& option, const std::string& text);           // "auto": 0
+double checkpoint_interval(const std::string& option, const std::string& text);  // "never": infinite
 double tolerance_value(const std::string& option, const std::string& text);
 double accuracy_value(const std::string& option, const std::string& text);
 int whole_number(const std::string& option, const std::string& text, int low, int high);

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -23,9 +24,10 @@ namespace app {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::array<std::string_view, 12> top_names{
-    "state.csv", "history.csv",    "run.json",   "sheet.png",      "residual.png", "bench.csv",
-    "bench.png", "relaxation.csv", "moduli.csv", "relaxation.png", "moduli.png",   "fit.png"};
+constexpr std::array<std::string_view, 14> top_names{
+    "state.csv", "history.csv",    "run.json",        "sheet.png",      "residual.png",
+    "bench.csv", "bench.png",      "moduli.csv",      "relaxation.csv", "moduli.png",
+    "fit.png",   "relaxation.png", "checkpoint.rheo", "positions.bin"};
 
 std::string_view without_part(std::string_view name) {
   constexpr std::string_view part = ".part";
@@ -79,8 +81,19 @@ bool is_own(std::string_view name) {
   return is_top_file(name);
 }
 
+// By a file without a name: gone when closed, whatever happens.
 void check_writable(const fs::path& folder) {
-  close(open_unnamed_file(folder));
+  int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
+  if (file < 0) {
+    // Some file systems have no O_TMPFILE: a named file, unlinked at once, does the same.
+    std::string name = (folder / ".rheo_XXXXXX").string();
+    file = mkostemp(name.data(), O_CLOEXEC);
+    if (file >= 0) unlink(name.c_str());
+  }
+  if (file < 0)
+    throw Failure(ExitCode::file,
+                  fmt::format("{}: cannot write into the folder: {}", folder.string(), std::strerror(errno)));
+  close(file);
 }
 
 std::vector<std::string> names_in(const fs::path& folder) {
@@ -93,26 +106,11 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-struct EarlierRun {
-  std::vector<std::string> files;  // made or, of an unfinished run, to come
-  bool finished = true;
-};
-
-// What run.json tells of an earlier run; nullopt where there is none or it is something else's.
-std::optional<EarlierRun> earlier_run(const fs::path& folder) {
-  using Json = nlohmann::json;
-  std::ifstream file(folder / "run.json", std::ios::binary);
-  if (!file) return std::nullopt;
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object() || !json.contains("rheo") || !json.contains("files") || !json["files"].is_array())
-    return std::nullopt;
-  EarlierRun run;
-  run.finished = !json.contains("exit_status") || !json["exit_status"].is_null();
-  for (const Json& name : json["files"])
-    // A name that rheo does not write, such as "../thesis.tex", is nobody's order to remove it.
-    if (name.is_string() && is_own(name.get<std::string>())) run.files.push_back(name);
-  return run;
+// A checkpoint that run.json does not list: of a run that was killed at its very end.
+bool is_checkpoint(const fs::path& file) {
+  std::array<char, 8> begin{};
+  std::ifstream(file, std::ios::binary).read(begin.data(), begin.size());
+  return std::string_view(begin.data(), begin.size()) == "rheo ck\n";
 }
 
 // Unfinished files, which carry names that only rheo gives.
@@ -126,6 +124,7 @@ std::vector<std::string> leftovers_in(const fs::path& folder) {
     for (const std::string& each : names_in(place))
       if (const std::string name = subfolder + each; is_part(name) && is_own(name)) found.push_back(name);
   }
+  if (is_checkpoint(folder / "checkpoint.rheo")) found.push_back("checkpoint.rheo");
   return found;
 }
 
@@ -149,6 +148,26 @@ bool is_interrupted_run(const fs::path& folder, const std::vector<std::string>& 
 
 }  // namespace
 
+std::optional<EarlierRun> find_earlier_run(const fs::path& folder) {
+  using Json = nlohmann::json;
+  std::error_code error;
+  if (!fs::is_regular_file(folder / "run.json", error)) return std::nullopt;
+  std::ifstream file(folder / "run.json", std::ios::binary);
+  if (!file) return std::nullopt;
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object() || !json.contains("rheo") || !json.contains("files") || !json["files"].is_array())
+    return std::nullopt;
+  EarlierRun run;
+  // Without one: an old rheo's, which had ended.
+  const Json status = json.contains("exit_status") ? json["exit_status"] : Json(0);
+  if (!status.is_null()) run.exit_status = status.is_number_integer() ? status.get<int>() : 0;
+  for (const Json& name : json["files"])
+    // A name that rheo does not write, such as "../thesis.tex", is nobody's order to remove it.
+    if (name.is_string() && is_own(name.get<std::string>())) run.files.push_back(name);
+  return run;
+}
+
 OutputFolder::OutputFolder(fs::path folder, Replace replace) : folder_(std::move(folder)) {
   std::error_code error;
   const fs::file_status status = fs::status(folder_, error);
@@ -157,18 +176,19 @@ OutputFolder::OutputFolder(fs::path folder, Replace replace) : folder_(std::move
                   fmt::format("{}: is a file, not a folder: name another folder with -o", folder_.string()));
   if (!fs::exists(status)) {
     make(folder_);
+    lock();
     return;
   }
   const std::vector<std::string> names = names_in(folder_);
-  if (!names.empty() && replace == Replace::nothing) {
+  const std::optional<EarlierRun> earlier = find_earlier_run(folder_);
+  const bool cut = earlier ? earlier->is_cut() : is_interrupted_run(folder_, names);
+  if (!names.empty() && (replace == Replace::nothing || (replace == Replace::cut_run && !cut))) {
     const std::string remedy =
         "name another folder with -o, or add --force, which replaces results and keeps other files";
-    const std::optional<EarlierRun> earlier = earlier_run(folder_);
-    if (earlier && !earlier->finished)
-      throw Failure(
-          ExitCode::usage,
-          fmt::format("{}: holds what an interrupted run left, if that run is not still going on: {}",
-                      folder_.string(), remedy));
+    if (earlier && cut)
+      throw Failure(ExitCode::usage,
+                    fmt::format("{}: holds what an interrupted run left: --resume goes on with it; or {}",
+                                folder_.string(), remedy));
     if (std::ranges::find(names, "run.json") != names.end())
       throw Failure(ExitCode::usage,
                     fmt::format("{}: holds the results of an earlier run: {}", folder_.string(), remedy));
@@ -179,13 +199,14 @@ OutputFolder::OutputFolder(fs::path folder, Replace replace) : folder_(std::move
                   fmt::format("{}: is not empty ('{}'): {}", folder_.string(), names.front(), remedy));
   }
   check_writable(folder_);
+  lock();
   if (names.empty()) return;
   // A folder in the place of a result would only show after the simulation.
   for (const std::string_view name : top_names)
     for (const char* const end : {"", ".part"})
       if (const fs::path path = folder_ / (std::string(name) + end); fs::is_directory(path))
         refuse_folder(path);
-  std::vector<std::string> listed = earlier_run(folder_).value_or(EarlierRun{}).files;
+  std::vector<std::string> listed = earlier.value_or(EarlierRun{}).files;
   // The list goes last: what is left of an interrupted removal is still known.
   std::ranges::stable_partition(listed, [](const std::string& name) { return name != "run.json"; });
   stale_ = leftovers_in(folder_);
@@ -208,19 +229,58 @@ void OutputFolder::clear() {
     if (fs::remove(path, error); error) refuse(path, "cannot remove the earlier file", error);
   }
   stale_.clear();
+  ready_.clear();
   for (const char* const subfolder : {"frames", "vtu"})
     if (fs::is_directory(fs::symlink_status(folder_ / subfolder, error)))
       fs::remove(folder_ / subfolder, error);  // one that holds anything stays
 }
 
+void OutputFolder::adopt(const std::vector<std::string>& parts) {
+  std::error_code error;
+  for (const std::string& name : stale_) {
+    if (!is_part(name)) {
+      own_.push_back(name);
+    } else if (std::ranges::find(parts, name) == parts.end()) {
+      if (fs::remove(folder_ / name, error); error)
+        refuse(folder_ / name, "cannot remove the unfinished file", error);
+    }
+  }
+  stale_.clear();
+  std::ranges::sort(own_);
+}
+
+bool OutputFolder::has_own(const std::string& name) const {
+  std::error_code error;
+  return std::ranges::binary_search(own_, name) && fs::is_regular_file(folder_ / name, error);
+}
+
 std::vector<std::string> OutputFolder::free_of(std::vector<std::string> names) const {
   std::error_code error;
-  std::erase_if(
-      names, [&](const std::string& name) { return fs::exists(fs::symlink_status(folder_ / name, error)); });
+  std::erase_if(names, [&](const std::string& name) {
+    return fs::exists(fs::symlink_status(folder_ / name, error)) && !std::ranges::binary_search(own_, name);
+  });
   return names;
 }
 
+void OutputFolder::require_presence() const {
+  std::error_code error;
+  if (!fs::is_directory(folder_, error))
+    throw Failure(ExitCode::file, fmt::format("{}: is gone: the folder was removed while rheo wrote into it",
+                                              folder_.string()));
+}
+
+// Let go when the program ends, however it does. A file system without locks goes without.
+void OutputFolder::lock() {
+  lock_ = open(folder_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (lock_ < 0 || flock(lock_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  close(lock_);
+  throw Failure(ExitCode::file, fmt::format("{}: another rheo is writing into it: wait for its end, or name "
+                                            "another folder with -o",
+                                            folder_.string()));
+}
+
 OutputFolder::~OutputFolder() {
+  if (lock_ >= 0) close(lock_);
   // Innermost first; a folder that holds anything stays.
   std::error_code not_empty;
   for (auto folder = new_folders_.rbegin(); folder != new_folders_.rend(); ++folder)
@@ -229,7 +289,11 @@ OutputFolder::~OutputFolder() {
 
 fs::path OutputFolder::file(const std::string& name) {
   fs::path path = folder_ / name;
-  if (path.parent_path() != folder_) make(path.parent_path());
+  const fs::path place = path.parent_path();
+  if (place != folder_ && std::ranges::find(ready_, place) == ready_.end()) {
+    make(place);
+    ready_.push_back(place);
+  }
   return path;
 }
 
@@ -270,20 +334,6 @@ std::string frame_name(std::int64_t k) {
 }
 std::string vtu_name(std::int64_t k) {
   return fmt::format("vtu/state_{:05d}.vtu", k);
-}
-
-int open_unnamed_file(const fs::path& folder) {
-  int file = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0600);
-  if (file < 0) {
-    // Some file systems have no O_TMPFILE: a named file, unlinked at once, does the same.
-    std::string name = (folder / ".rheo_XXXXXX").string();
-    file = mkostemp(name.data(), O_CLOEXEC);
-    if (file >= 0) unlink(name.c_str());
-  }
-  if (file < 0)
-    throw Failure(ExitCode::file,
-                  fmt::format("{}: cannot write into the folder: {}", folder.string(), std::strerror(errno)));
-  return file;
 }
 
 }  // namespace app

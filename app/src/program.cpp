@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -16,6 +15,7 @@
 #include "failure.hpp"
 #include "rheo/error.hpp"
 #include "runner.hpp"
+#include "standard_streams.hpp"
 #include "view/view.hpp"
 
 namespace app {
@@ -26,7 +26,9 @@ int report(ExitCode code, std::string message) {
   for (char& c : message)
     if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
   std::fflush(stdout);
-  fmt::print(stderr, "rheo: {}\n", message);
+  // Whether or not somebody can read it.
+  const std::string line = "rheo: " + message + "\n";
+  std::fwrite(line.data(), 1, line.size(), stderr);
   return static_cast<int>(code);
 }
 
@@ -42,13 +44,14 @@ void run_command(int argc, char** argv) {
     else
       run_scene(*options);
   }
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-    throw Failure(ExitCode::file, fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+  if (const int reason = standard_output_failure(); reason != 0)
+    throw Failure(ExitCode::file, fmt::format("cannot write to standard output: {}", std::strerror(reason)));
 }
 
 }  // namespace
 
 int run_program(int argc, char** argv) {
+  prepare_standard_streams();
   try {
     run_command(argc, argv);
     return static_cast<int>(ExitCode::done);

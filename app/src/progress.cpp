@@ -18,6 +18,11 @@ constexpr auto bar_interval = std::chrono::milliseconds(100);
 constexpr auto line_interval = std::chrono::seconds(10);
 constexpr int bar_width = 30;
 
+// A run is worth more than its lines: what cannot be printed shows at the program's end (program.cpp).
+void print(std::FILE* stream, const std::string& text) {
+  std::fwrite(text.data(), 1, text.size(), stream);
+}
+
 std::string duration_text(double seconds) {
   if (seconds < 90.0) return fmt::format("{:.0f} s", seconds);
   if (seconds < 5400.0) return fmt::format("{:.0f} min", seconds / 60.0);
@@ -45,8 +50,8 @@ void Progress::update(std::int64_t done) {
   const std::string left = share > 0.0 ? duration_text(passed / share * (1.0 - share)) + " left" : "";
   if (terminal_) {
     const int full = static_cast<int>(share * bar_width);
-    fmt::print(stderr, "\r\x1b[K{:<10} [{:#>{}}{:.>{}}] {:3.0f} %  {}", phase_, "", full, "",
-               bar_width - full, 100.0 * share, left);
+    print(stderr, fmt::format("\r\x1b[K{:<10} [{:#>{}}{:.>{}}] {:3.0f} %  {}", phase_, "", full, "",
+                              bar_width - full, 100.0 * share, left));
     std::fflush(stderr);
     bar_shown_ = true;
   } else {
@@ -63,12 +68,12 @@ void Progress::end() {
 void Progress::line(const std::string& text) {
   if (quiet_) return;
   clear_bar();
-  fmt::print("{}\n", printable(text));
+  print(stdout, printable(text) + "\n");
 }
 
 void Progress::clear_bar() {
   if (!bar_shown_) return;
-  fmt::print(stderr, "\r\x1b[K");
+  print(stderr, "\r\x1b[K");
   std::fflush(stderr);
   bar_shown_ = false;
 }

@@ -70,6 +70,47 @@ void Recorder::record(rheo::Simulation& simulation, std::int64_t) {
   loads_.push_back(std::move(loads));
 }
 
+void Recorder::put(rheo::ByteWriter& out) {
+  out.put(store_.keep());
+  out.put(bounds_);
+  out.put(range_);
+  out.put(color_values_);
+  out.put(static_cast<std::uint64_t>(loads_.size()));
+  const std::vector<int>* before = nullptr;
+  for (const RecordedLoads& loads : loads_) {
+    out.put(loads.t);
+    out.put(static_cast<std::uint64_t>(loads.tractions.size()));
+    for (const auto& traction : loads.tractions) {
+      out.put(static_cast<std::int64_t>(traction.index));
+      out.put(traction.p);
+    }
+    const bool others = loads.held.get() != before;
+    out.put(static_cast<std::uint64_t>(others ? 1 : 0));
+    if (others) out.put_list(*loads.held);
+    before = loads.held.get();
+  }
+}
+
+void Recorder::get(rheo::ByteReader& in) {
+  store_.take_up(in.get<GrowingFile::Mark>());
+  bounds_ = in.get<std::array<double, 4>>();
+  range_ = in.get<std::array<double, 2>>();
+  color_values_ = in.get<std::int64_t>();
+  for (auto left = in.get<std::uint64_t>(); left > 0; --left) {
+    RecordedLoads loads;
+    loads.t = in.get<double>();
+    for (auto tractions = in.get<std::uint64_t>(); tractions > 0; --tractions) {
+      const auto index = static_cast<int>(in.get<std::int64_t>());
+      loads.tractions.push_back({index, in.get<rheo::Vec2>()});
+    }
+    if (in.get<std::uint64_t>() != 0)
+      loads.held = std::make_shared<const std::vector<int>>(in.get_list<int>());
+    else if (!loads_.empty())
+      loads.held = loads_.back().held;
+    loads_.push_back(std::move(loads));
+  }
+}
+
 void Recorder::read(std::int64_t k, std::vector<double>& positions, std::vector<double>& scalar) const {
   std::vector<float> record(record_.size());
   store_.read(k, record);

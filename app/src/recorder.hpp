@@ -13,6 +13,7 @@
 
 #include "frame_store.hpp"
 #include "output_sink.hpp"
+#include "rheo/io/bytes.hpp"
 
 namespace app {
 
@@ -28,6 +29,13 @@ class Recorder : public OutputSink {
   Recorder(const rheo::Scene& scene, const std::filesystem::path& folder);
 
   void record(rheo::Simulation& simulation, std::int64_t k) override;
+
+  // For a run that is to go on: positions and colours are kept in the store's file, all else in the bytes.
+  void put(rheo::ByteWriter& out);
+  // Before the first record.
+  void get(rheo::ByteReader& in);
+  // What was kept goes with this object after all.
+  void discard() { store_.discard(); }
 
   std::int64_t count() const { return store_.count(); }
   const RecordedLoads& loads(std::int64_t k) const { return loads_[static_cast<std::size_t>(k)]; }

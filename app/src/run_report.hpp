@@ -8,7 +8,8 @@
 //   bodies: name, nodes, triangles, materials (their numbers) of each of several
 //   materials: number, name, triangles and all numbers of each
 //   outputs; files;
-//   counters; seconds by phase; notes; warnings; exit_status; divergence or null
+//   counters; seconds by phase; notes; warnings; exit_status; divergence or null. Of a run that was gone on
+//   with: counters of all of it, seconds up to its latest checkpoint and from there on, drawing counted anew
 //
 // A run writes it twice: when it begins, with exit_status null, nothing counted yet and as files those to
 // come where nothing stands so far; and when it ends, in the place of that.

@@ -2,104 +2,36 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
+#include <new>
 #include <optional>
 #include <string_view>
 #include <vector>
 
 #include "failure.hpp"
-#include "history_file.hpp"
-#include "linearity_watch.hpp"
 #include "memory_need.hpp"
 #include "option_values.hpp"
 #include "output_folder.hpp"
 #include "overrides.hpp"
 #include "phase_clock.hpp"
 #include "progress.hpp"
-#include "recorder.hpp"
+#include "records.hpp"
 #include "rheo/io/results.hpp"
 #include "rheo/simulation.hpp"
+#include "run_checkpoint.hpp"
+#include "run_identity.hpp"
 #include "run_notes.hpp"
 #include "run_report.hpp"
-#include "scene_parts.hpp"
+#include "run_summary.hpp"
 #include "sequence.hpp"
-#include "vtu_series.hpp"
+#include "stop_signals.hpp"
 
 namespace app {
 namespace {
 
-struct Sink {
-  OutputSink* sink;
-  double* seconds;  // where its time is booked
-};
-
-struct Passed {
-  std::int64_t outputs = 0;  // completed
-  std::optional<rheo::Divergence> divergence;
-};
-
-// Pass 1: from 0 to the duration, every sink at every output.
-Passed simulate(rheo::Simulation& simulation, const std::vector<Sink>& sinks, Progress& progress,
-                Seconds& seconds) {
-  const rheo::TimeSettings& time = simulation.scene().time;
-  const std::int64_t count = rheo::output_count(time);
-  Passed passed;
-  const auto advance = [&](double t) {
-    const Timed timed(seconds.simulate);
-    return simulation.advance(t);
-  };
-  progress.begin("simulating", count);
-  for (std::int64_t k = 0; k < count; ++k) {
-    passed.divergence = advance(rheo::output_time(time, k));
-    if (passed.divergence) return passed;
-    for (const Sink& each : sinks) {
-      const Timed timed(*each.seconds);
-      each.sink->record(simulation, k);
-    }
-    passed.outputs = k + 1;
-    progress.update(passed.outputs);
-  }
-  // The last output may lie before the duration.
-  passed.divergence = advance(time.duration);
-  progress.end();
-  return passed;
-}
-
-std::string divergence_text(const rheo::Divergence& divergence, const rheo::Simulation& simulation) {
-  const rheo::TimeSettings& time = simulation.scene().time;
-  const rheo::Vec2 at = simulation.scene().mesh.points[static_cast<std::size_t>(divergence.node)];
-  const std::string where =
-      fmt::format("diverged at t = {:.6g} s at {} (at rest x = {:.4g} m, y = {:.4g} m)", divergence.t,
-                  node_text(simulation.scene(), divergence.node), at.x, at.y);
-  const double used = simulation.step_bound(), stable = divergence.stable_step;
-  if (stable <= 0.0)
-    return fmt::format("{}: no step of {} is stable for this scene, {:.4g} s was used: use --integrator rk4",
-                       where, name_of(time.integrator), used);
-  if (time.integrator == rheo::IntegratorKind::implicit)
-    return fmt::format(
-        "{}: the factor for implicit steps of {:.4g} s has too few correct digits: take smaller ones with "
-        "--step, and check the scene's loads and motions",
-        where, simulation.largest_step());
-  if (std::isinf(stable))
-    return fmt::format(
-        "{}: {} could not reach its tolerance of {:g}: check the scene's loads and motions, or try "
-        "--integrator rk4",
-        where, name_of(time.integrator), time.tolerance);
-  if (used > stable)
-    return fmt::format(
-        "{}: the step of {:.4g} s is beyond the stable step of {}, {:.4g} s: use --step auto or less "
-        "than that",
-        where, used, name_of(time.integrator), stable);
-  return fmt::format(
-      "{}: the step of {:.4g} s is within the stable step of {}, {:.4g} s: halve it with --step and "
-      "check the scene's loads and motions",
-      where, used, name_of(time.integrator), stable);
-}
-
 // All that a run may write: one that diverges leaves some of it out.
 std::vector<std::string> files_to_come(const Options& options, const rheo::TimeSettings& time) {
-  std::vector<std::string> names{"history.csv", "state.csv"};
+  std::vector<std::string> names{"history.csv", "state.csv", checkpoint_name};
   const bool pictures = options.command == Command::render;
   for (std::int64_t k = 0; k < rheo::output_count(time); ++k) {
     if (options.vtu) names.push_back(vtu_name(k));
@@ -110,120 +42,280 @@ std::vector<std::string> files_to_come(const Options& options, const rheo::TimeS
   return names;
 }
 
-// One line a file; frames and .vtu files as one line each.
-void list_files(const OutputFolder& folder, Progress& progress) {
-  const std::vector<std::string>& files = folder.all_made();
-  const auto path = [&](const std::string& name) { return (folder.path() / name).string(); };
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    std::size_t last = i;
-    for (const std::string_view series : {"frames/frame_", "vtu/state_"})
-      while (files[i].starts_with(series) && last + 1 < files.size() && files[last + 1].starts_with(series))
-        ++last;
-    if (last == i)
-      progress.line(path(files[i]));
-    else
-      progress.line(fmt::format("{} ... {} ({} files)", path(files[i]),
-                                files[last].substr(files[last].rfind('/') + 1), last - i + 1));
-    i = last;
+// A run that has ended is not gone on with: what there is to say about it, said.
+bool has_ended(const Options& options, Progress& progress) {
+  const std::optional<EarlierRun> earlier = find_earlier_run(options.folder);
+  if (!earlier || earlier->is_cut()) return false;
+  if (earlier->exit_status == static_cast<int>(ExitCode::diverged))
+    throw Failure(
+        ExitCode::usage,
+        fmt::format("{}: the run there has diverged, and would again: change its step or its scene, "
+                    "and begin anew with --force",
+                    options.folder.string()));
+  progress.line(fmt::format("note: {}: the run there has ended: nothing to resume", options.folder.string()));
+  return true;
+}
+
+// The checkpoint to go on from; nothing: the run begins anew.
+std::optional<CutRun> cut_run(const Options& options) {
+  const std::filesystem::path file = options.folder / checkpoint_name;
+  const std::optional<EarlierRun> earlier = find_earlier_run(options.folder);
+  if (!options.resume || !earlier || !std::filesystem::exists(file)) return std::nullopt;
+  rheo::Checkpoint checkpoint = rheo::read_checkpoint(file);
+  // That of an end, whose run.json alone was still to come.
+  if (checkpoint.companion.empty()) return std::nullopt;
+  return std::optional<CutRun>(std::in_place, std::move(checkpoint));
+}
+
+// From a scene that is read to the files that are written.
+class Run {
+ public:
+  Run(const Options& options, rheo::Scene scene, RunReport report, Progress& progress);
+  void go();
+
+ private:
+  rheo::Simulation build(rheo::Scene scene);
+  void open_folder();
+  void begin_or_take_up();
+  // Pass 1: to the duration, noting every output.
+  std::optional<rheo::Divergence> simulate();
+  // Pass 2; false where it was told to stop.
+  bool draw();
+  void write_tables();
+  [[noreturn]] void stop(StopSignal signal);
+  void finish();
+  void write_report() { write_run_report(folder_.file("run.json"), options_, simulation_, report_); }
+  void checkpoint() {
+    const Timed timed(seconds_.write);
+    checkpoint_.write(simulation_, records_, progress_made_, seconds_);
+    end_is_kept_ = progress_made_.simulated;
+  }
+
+  const Options& options_;
+  Progress& progress_;
+  RunReport report_;
+  Seconds& seconds_ = report_.seconds;
+  std::string identity_;
+  std::optional<CutRun> cut_;
+  rheo::Simulation simulation_;
+  std::optional<Sequence> sequence_;
+  OutputFolder folder_;
+  StopSignals signals_;
+  Records records_;
+  RunCheckpoint checkpoint_;
+  RunProgress progress_made_;
+  bool end_is_kept_ = false;  // in the checkpoint: only drawing is left
+};
+
+Replace replace_of(const Options& options) {
+  return options.resume ? Replace::cut_run : options.force ? Replace::earlier_run : Replace::nothing;
+}
+
+std::optional<Sequence> open_sequence(const rheo::Scene& scene, const Options& options, Seconds& seconds) {
+  if (options.command != Command::render) return std::nullopt;
+  const Timed timed(seconds.draw);
+  return std::optional<Sequence>(std::in_place, scene.picture, options);
+}
+
+// Everything that can be refused is refused here, before the folder is made or cleared.
+Run::Run(const Options& options, rheo::Scene scene, RunReport report, Progress& progress)
+    : options_(options),
+      progress_(progress),
+      report_(std::move(report)),
+      identity_(run_identity(options, scene, report_.scene_text, report_.read_files)),
+      cut_(cut_run(options)),
+      simulation_(build(std::move(scene))),
+      sequence_(open_sequence(simulation_.scene(), options, seconds_)),
+      folder_(options.folder, replace_of(options)),
+      records_(simulation_.scene(), folder_, options, progress),
+      checkpoint_(folder_.path() / checkpoint_name, options.checkpoint_seconds, identity_) {
+  if (sequence_) report_.renderer = sequence_->description();
+  if (cut_) checkpoint_.adopt();
+}
+
+rheo::Simulation Run::build(rheo::Scene scene) {
+  if (cut_) cut_->require_same(identity_);
+  std::optional<rheo::Checkpoint> start;
+  if (!options_.from.empty() && !cut_) start = rheo::read_checkpoint(options_.from);
+  const Timed timed(seconds_.build);
+  rheo::SimulationOptions simulation_options = options_.simulation;
+  simulation_options.planning = trial_runs_on(progress_);
+  rheo::Simulation simulation(std::move(scene), simulation_options);
+  progress_.end();
+  if (start) rheo::begin_from(simulation, *start);
+  return simulation;
+}
+
+void Run::open_folder() {
+  // Whatever is in the way of the files to come shows now, not after the simulation.
+  if (options_.vtu) folder_.expect_series(vtu_name(0));
+  if (sequence_) folder_.expect_series(frame_name(0));
+  if (cut_)
+    folder_.adopt({"history.csv.part", "positions.bin.part"});
+  else
+    folder_.clear();
+}
+
+void Run::begin_or_take_up() {
+  const rheo::Scene& scene = simulation_.scene();
+  if (cut_) {
+    progress_made_ = cut_->take_up(simulation_, records_, seconds_);
+    end_is_kept_ = progress_made_.simulated;
+    progress_.line(fmt::format("note: goes on after {} of {} outputs, at t = {:.6g} s",
+                               progress_made_.outputs, rheo::output_count(scene.time), simulation_.time()));
+  } else if (options_.resume) {
+    progress_.line(
+        fmt::format("note: {}: no checkpoint to go on from: begins at t = 0", options_.folder.string()));
+  }
+  report_.notes = run_notes(scene);
+  for (std::string& note : plan_notes(simulation_, options_.simulation))
+    report_.notes.push_back(std::move(note));
+  for (const std::string& note : report_.notes) progress_.line("note: " + note);
+  report_.files = folder_.free_of(files_to_come(options_, scene.time));
+  report_.files.push_back("run.json");
+  write_report();
+  if (!cut_) records_.begin();
+}
+
+std::optional<rheo::Divergence> Run::simulate() {
+  const rheo::TimeSettings& time = simulation_.scene().time;
+  const std::int64_t count = rheo::output_count(time);
+  const auto advance = [&](double t) {
+    const Timed timed(seconds_.simulate);
+    return simulation_.advance(t);
+  };
+  progress_.begin("simulating", count);
+  for (std::int64_t k = progress_made_.outputs; k < count; ++k) {
+    if (const auto divergence = advance(rheo::output_time(time, k))) return divergence;
+    records_.record(simulation_, k, seconds_);
+    progress_made_.outputs = k + 1;
+    folder_.require_presence();
+    if (const auto signal = signals_.asked()) stop(*signal);
+    if (checkpoint_.is_due()) checkpoint();
+    progress_.update(k + 1);
+  }
+  // The last output may lie before the duration.
+  const auto divergence = progress_made_.simulated ? std::nullopt : advance(time.duration);
+  progress_made_.simulated = !divergence;
+  progress_.end();
+  return divergence;
+}
+
+void Run::write_tables() {
+  const Timed timed(seconds_.write);
+  records_.commit();
+  if (!report_.divergence) {
+    const rheo::Scene& scene = simulation_.scene();
+    rheo::write_state_csv(folder_.file("state.csv"), scene.mesh,
+                          {simulation_.u(), simulation_.v(), simulation_.w_lambda(), simulation_.w_mu()},
+                          {scene.bodies, scene.region_of_triangle});
+    folder_.made("state.csv");
   }
 }
 
-void summarise(const rheo::Counters& counters, const Seconds& seconds, std::int64_t frames,
-               Progress& progress) {
-  progress.line(fmt::format("{} steps{}, {} force evaluations", counters.steps,
-                            counters.steps_at_rest > 0
-                                ? fmt::format(" ({} more were not needed: at rest)", counters.steps_at_rest)
-                                : std::string(),
-                            counters.force_evaluations));
-  std::string line = fmt::format("seconds: read {:.3f}, build {:.3f}, simulate {:.3f}, write {:.3f}",
-                                 seconds.read, seconds.build, seconds.simulate, seconds.write);
-  if (frames > 0)
-    line += fmt::format(", draw {:.3f}, encode {:.3f} ({:.0f} frames/s)", seconds.draw, seconds.encode,
-                        static_cast<double>(frames) / (seconds.draw + seconds.encode));
-  progress.line(line);
+bool Run::draw() {
+  const Recorder& recorder = *records_.recorder();
+  const rheo::Scene& scene = simulation_.scene();
+  if (nothing_to_colour(scene.picture, recorder)) {
+    report_.notes.push_back(fmt::format("{} is zero everywhere and always: there is nothing to colour",
+                                        name_of(scene.picture.color)));
+    progress_.line("note: " + report_.notes.back());
+  }
+  // Frames that are there are whole and as they would be drawn again.
+  const auto is_there = [&](std::int64_t k) { return cut_ && folder_.has_own(frame_name(k)); };
+  const auto goes_on = [&] {
+    folder_.require_presence();
+    // Once is enough. (A diverged run's end is none to go on from.)
+    if (progress_made_.simulated && !end_is_kept_ && checkpoint_.is_due()) checkpoint();
+    return !signals_.asked();
+  };
+  const bool done = sequence_->draw(scene, recorder, records_.history(), folder_, progress_, seconds_,
+                                    {.is_there = is_there, .goes_on = goes_on});
+  report_.color_values = recorder.color_values();
+  report_.drawing = sequence_->counters();
+  return done;
+}
+
+void Run::stop(StopSignal signal) {
+  progress_.end();
+  const bool keeps = std::isfinite(options_.checkpoint_seconds);
+  // A diverged run, told to stop while it draws, diverges again from its latest checkpoint or the beginning.
+  if (keeps && !end_is_kept_ && !report_.divergence) checkpoint();
+  if (checkpoint_.exists()) folder_.made(checkpoint_name);
+  folder_.made("run.json");
+  report_.outputs = progress_made_.outputs;
+  report_.files = folder_.all_made();
+  report_.warnings = records_.warnings();
+  report_.exit_status = signal == StopSignal::interrupt ? ExitCode::interrupted : ExitCode::terminated;
+  write_report();
+  summarise(simulation_.counters(), seconds_, 0, progress_);
+  list_files(folder_, progress_);
+  throw Failure(*report_.exit_status,
+                fmt::format("stopped by {} after {} of {} outputs{}: {}",
+                            signal == StopSignal::interrupt ? "SIGINT" : "SIGTERM", progress_made_.outputs,
+                            rheo::output_count(simulation_.scene().time),
+                            progress_made_.simulated ? ", while drawing" : "",
+                            keeps ? "the same command with --resume goes on from there"
+                                  : "--force begins anew (and without --checkpoint never it could go on)"));
+}
+
+void Run::finish() {
+  records_.discard();
+  const bool keeps = options_.keeps_checkpoint && !report_.divergence;
+  if (keeps) folder_.made(checkpoint_name);
+  folder_.made("run.json");
+  report_.outputs = progress_made_.outputs;
+  report_.files = folder_.all_made();
+  report_.warnings = records_.warnings();
+  report_.exit_status = report_.divergence ? ExitCode::diverged : ExitCode::done;
+  if (keeps) rheo::write_checkpoint(folder_.path() / checkpoint_name, simulation_);
+  write_report();
+  // In this order: a run that is killed in between has ended.
+  if (!keeps) checkpoint_.remove();
+}
+
+void Run::go() {
+  open_folder();
+  begin_or_take_up();
+  report_.divergence = simulate();
+  progress_.end();
+  write_tables();
+  if (sequence_ && !draw()) stop(*signals_.asked());
+  finish();
+  summarise(simulation_.counters(), seconds_, sequence_ ? progress_made_.outputs : 0, progress_);
+  list_files(folder_, progress_);
+  if (report_.divergence)
+    throw Failure(ExitCode::diverged, divergence_text(*report_.divergence, simulation_));
 }
 
 }  // namespace
 
 void run_scene(const Options& options) {
   Progress progress(options.quiet ? Verbosity::quiet : Verbosity::normal);
+  if (options.resume && has_ended(options, progress)) return;
   RunReport report;
-  Seconds& seconds = report.seconds;
-
-  std::optional<Timed> timed(seconds.read);
-  rheo::Scene scene = load_scene(options);
-  report.scene_text = file_text(options.scene);
-  for (const std::string& file : scene.files) report.read_files.push_back(fingerprint(file));
-  require_memory(scene, options);
-  timed.emplace(seconds.build);
-  rheo::SimulationOptions simulation_options = options.simulation;
-  simulation_options.planning = trial_runs_on(progress);
-  rheo::Simulation simulation(std::move(scene), simulation_options);
-  progress.end();
-  timed.emplace(seconds.draw);
-  std::optional<Sequence> sequence;
-  if (options.command == Command::render) sequence.emplace(simulation.scene().picture, options);
-  if (sequence) report.renderer = sequence->description();
-  timed.reset();
-
-  OutputFolder folder(options.folder, options.force ? Replace::earlier_run : Replace::nothing);
-  // Whatever is in the way of the files to come shows now, not after the simulation.
-  if (options.vtu) folder.expect_series(vtu_name(0));
-  if (sequence) folder.expect_series(frame_name(0));
-  std::optional<Recorder> recorder;
-  if (sequence) recorder.emplace(simulation.scene(), folder.path());
-  folder.clear();
-  report.notes = run_notes(simulation.scene());
-  for (std::string& note : plan_notes(simulation, options.simulation))
-    report.notes.push_back(std::move(note));
-  for (const std::string& note : report.notes) progress.line("note: " + note);
-  report.files = folder.free_of(files_to_come(options, simulation.scene().time));
-  report.files.push_back("run.json");
-  write_run_report(folder.file("run.json"), options, simulation, report);
-  HistoryFile history(folder.file("history.csv"), simulation.scene());
-  LinearityWatch watch(progress);
-  std::vector<Sink> sinks{{&history, &seconds.write}, {&watch, &seconds.write}};
-  std::optional<VtuSeries> vtu;
-  if (options.vtu) sinks.push_back({&vtu.emplace(folder), &seconds.write});
-  if (recorder) sinks.push_back({&*recorder, &seconds.write});
-
-  const Passed passed = simulate(simulation, sinks, progress, seconds);
-  progress.end();
-
-  timed.emplace(seconds.write);
-  history.commit();
-  folder.made("history.csv");
-  if (!passed.divergence) {
-    rheo::write_state_csv(folder.file("state.csv"), simulation.scene().mesh,
-                          {simulation.u(), simulation.v(), simulation.w_lambda(), simulation.w_mu()},
-                          {simulation.scene().bodies, simulation.scene().region_of_triangle});
-    folder.made("state.csv");
+  rheo::Scene scene;
+  // Made while there is memory for it.
+  std::string need =
+      fmt::format("no room to read {}{}: take a coarser mesh", options.scene.string(), limit_text());
+  try {
+    {
+      const Timed timed(report.seconds.read);
+      scene = load_scene(options);
+      report.scene_text = file_text(options.scene);
+      for (const std::string& file : scene.files) report.read_files.push_back(fingerprint(file));
+    }
+    if (!options.from.empty() && scene.time.accuracy > 0.0)
+      throw Failure(
+          ExitCode::usage,
+          "--from with an accuracy: steps are chosen for a run that begins at rest: name a --step, or "
+          "--integrator exponential with a --tolerance");
+    require_memory(scene, options);
+    need = memory_text(scene, options, limit_text());
+    Run(options, std::move(scene), std::move(report), progress).go();
+  } catch (const std::bad_alloc&) {
+    throw Failure(ExitCode::file, "out of memory: " + need);
   }
-  if (vtu) vtu->finish();
-  timed.reset();
-
-  if (recorder && nothing_to_colour(simulation.scene().picture, *recorder)) {
-    report.notes.push_back(fmt::format("{} is zero everywhere and always: there is nothing to colour",
-                                       name_of(simulation.scene().picture.color)));
-    progress.line("note: " + report.notes.back());
-  }
-  if (sequence) {
-    sequence->draw(simulation.scene(), *recorder, history, folder, progress, seconds);
-    report.color_values = recorder->color_values();
-    report.drawing = sequence->counters();
-  }
-
-  folder.made("run.json");
-  report.outputs = passed.outputs;
-  report.files = folder.all_made();
-  report.warnings = watch.warnings();
-  report.divergence = passed.divergence;
-  report.exit_status = passed.divergence ? ExitCode::diverged : ExitCode::done;
-  write_run_report(folder.file("run.json"), options, simulation, report);
-
-  summarise(simulation.counters(), seconds, sequence ? passed.outputs : 0, progress);
-  list_files(folder, progress);
-  if (passed.divergence) throw Failure(ExitCode::diverged, divergence_text(*passed.divergence, simulation));
 }
 
 }  // namespace app

@@ -83,12 +83,14 @@ struct Sequence::Impl {
   bool bare = false;  // nothing to colour
   DrawCounters counters;
 
-  void draw_frames(render::MeshPicture& picture, const Recorder& recorder, const LoadedEdges& edges,
-                   OutputFolder& folder, Progress& progress, Seconds& seconds) const {
+  bool draw_frames(render::MeshPicture& picture, const Recorder& recorder, const LoadedEdges& edges,
+                   OutputFolder& folder, Progress& progress, Seconds& seconds, const DrawHooks& hooks) const {
     render::PngSequence png(threads);
     LoadedFrame frame{.bare = bare};
     progress.begin("drawing", recorder.count());
-    for (std::int64_t k = 0; k < recorder.count(); ++k) {
+    std::int64_t k = 0;
+    for (; k < recorder.count() && hooks.goes_on(); ++k) {
+      if (hooks.is_there(k)) continue;
       render::Image image = png.recycle();
       {
         const Timed timed(seconds.draw);
@@ -103,8 +105,9 @@ struct Sequence::Impl {
       const Timed timed(seconds.encode);
       png.finish();
     }
-    for (std::int64_t k = 0; k < recorder.count(); ++k) folder.made(frame_name(k));
+    for (std::int64_t made = 0; made < k; ++made) folder.made(frame_name(made));
     progress.end();
+    return k == recorder.count();
   }
 
   void draw_sheet(const rheo::Scene& scene, render::MeshPicture& picture, const Recorder& recorder,
@@ -179,9 +182,9 @@ DrawCounters Sequence::counters() const {
   return impl_->counters;
 }
 
-void Sequence::draw(const rheo::Scene& scene, const Recorder& recorder, const HistoryFile& history,
-                    OutputFolder& folder, Progress& progress, Seconds& seconds) {
-  if (recorder.count() == 0) return;
+bool Sequence::draw(const rheo::Scene& scene, const Recorder& recorder, const HistoryFile& history,
+                    OutputFolder& folder, Progress& progress, Seconds& seconds, const DrawHooks& hooks) {
+  if (recorder.count() == 0) return true;
   const std::vector<double> rest = flat(scene.mesh.points);
   const std::vector<int> triangles = flat_numbers(scene.mesh.triangles);
   const std::vector<int> boundary = flat_numbers(scene.mesh.edge_groups.at("boundary"));
@@ -204,11 +207,12 @@ void Sequence::draw(const rheo::Scene& scene, const Recorder& recorder, const Hi
                                   .arrow_scale = largest_traction(recorder, edges)};
   impl_->bare = bare;
   render::MeshPicture picture(*impl_->context, layout);
-  impl_->draw_frames(picture, recorder, edges, folder, progress, seconds);
+  if (!impl_->draw_frames(picture, recorder, edges, folder, progress, seconds, hooks)) return false;
   impl_->draw_sheet(scene, picture, recorder, edges, folder, seconds);
   const render::PictureCounters counted = picture.counters();
   impl_->counters = {counted.frames_drawn, counted.frames_repeated, counted.mesh_uploads};
   impl_->draw_residual(scene, history, folder, seconds);
+  return true;
 }
 
 }  // namespace app

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,12 @@ struct DrawCounters {
   std::int64_t mesh_uploads = 0;     // of positions and colours to the graphics library
 };
 
+// What drawing asks before each frame.
+struct DrawHooks {
+  std::function<bool(std::int64_t)> is_there;  // whether the frame is drawn already
+  std::function<bool()> goes_on;
+};
+
 class Sequence {
  public:
   Sequence(const rheo::PictureSettings& picture, const Options& options);
@@ -35,9 +42,10 @@ class Sequence {
 
   // Backend, driver and versions.
   std::string description() const;
-  // All recorded outputs as DIR/frames/..., then DIR/sheet.png and DIR/residual.png.
-  void draw(const rheo::Scene& scene, const Recorder& recorder, const HistoryFile& history,
-            OutputFolder& folder, Progress& progress, Seconds& seconds);
+  // All recorded outputs as DIR/frames/..., then DIR/sheet.png and DIR/residual.png. False where it did not
+  // go on: the frames before are whole, and no others there.
+  bool draw(const rheo::Scene& scene, const Recorder& recorder, const HistoryFile& history,
+            OutputFolder& folder, Progress& progress, Seconds& seconds, const DrawHooks& hooks);
   DrawCounters counters() const;
 
  private:

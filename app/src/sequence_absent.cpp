@@ -19,8 +19,10 @@ std::string Sequence::description() const {
   return "none";
 }
 
-void Sequence::draw(const rheo::Scene&, const Recorder&, const HistoryFile&, OutputFolder&, Progress&,
-                    Seconds&) {}
+bool Sequence::draw(const rheo::Scene&, const Recorder&, const HistoryFile&, OutputFolder&, Progress&,
+                    Seconds&, const DrawHooks&) {
+  return true;
+}
 
 DrawCounters Sequence::counters() const {
   return {};

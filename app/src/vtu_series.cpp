@@ -1,6 +1,10 @@
 #include "vtu_series.hpp"
 
+#include <fmt/format.h>
+
 #include <filesystem>
+
+#include "failure.hpp"
 
 namespace app {
 
@@ -14,6 +18,18 @@ void VtuSeries::record(rheo::Simulation& simulation, std::int64_t k) {
                   {simulation.scene().bodies, simulation.scene().region_of_triangle});
   entries_.push_back({simulation.time(), std::filesystem::path(name).filename().string()});
   folder_.made(name);
+}
+
+void VtuSeries::take_up(const std::vector<double>& times) {
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const std::string name = vtu_name(static_cast<std::int64_t>(k));
+    if (!std::filesystem::exists(folder_.path() / name))
+      throw Failure(ExitCode::file,
+                    fmt::format("{}: the cut run's file is gone: begin the run anew with --force",
+                                (folder_.path() / name).string()));
+    entries_.push_back({times[k], std::filesystem::path(name).filename().string()});
+    folder_.made(name);
+  }
 }
 
 void VtuSeries::finish() {

@@ -1,6 +1,6 @@
 // The ParaView series of a run: DIR/vtu/state_00000.vtu ... and its index state.pvd.
 //
-// Errors   rheo::Error::Kind::file
+// Errors   rheo::Error::Kind::file; Failure(file) where a file of the earlier outputs is gone
 #pragma once
 
 #include <vector>
@@ -16,6 +16,8 @@ class VtuSeries : public OutputSink {
   explicit VtuSeries(OutputFolder& folder) : folder_(folder) {}
 
   void record(rheo::Simulation& simulation, std::int64_t k) override;
+  // Goes on behind outputs at these times, whose files are there.
+  void take_up(const std::vector<double>& times);
   // Writes the index of what was recorded.
   void finish();
 

@@ -208,7 +208,7 @@ TEST_F(Usage, AMeshBeyondTheMemoryIsRefusedBeforeItIsBuilt) {
                                 "' && ulimit -v 500000 && '" RHEO_PROGRAM "' run big.toml " + options +
                                 " >out 2>err";
     const int status = std::system(command.c_str());
-    expect_failure({WEXITSTATUS(status), "", read_text(folder() / "err")}, 2, parts);
+    expect_failure({WEXITSTATUS(status), "", read_text(folder() / "err")}, 4, parts);
   };
   refused("", {"640000 nodes need", "GB", "ulimit -v", "coarser mesh"});
   refused("--integrator implicit", {"640000 nodes with implicit need about 4.", "GB", "ulimit -v"});

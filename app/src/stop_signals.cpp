@@ -1,0 +1,42 @@
+#include "stop_signals.hpp"
+
+namespace app {
+namespace {
+
+// A handler can reach nothing else.
+volatile std::sig_atomic_t noted = 0;
+
+void note(int signal) {
+  noted = signal;
+}
+
+// What ignores a signal (nohup, a shell's background job) goes on doing so.
+void install(int signal, struct sigaction& before) {
+  struct sigaction action {};
+  action.sa_handler = note;
+  // Calls that wait go on waiting; the handler serves once.
+  action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+  sigaction(signal, nullptr, &before);
+  if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+}
+
+}  // namespace
+
+StopSignals::StopSignals() {
+  noted = 0;
+  install(SIGINT, interrupt_before_);
+  install(SIGTERM, terminate_before_);
+}
+
+StopSignals::~StopSignals() {
+  sigaction(SIGINT, &interrupt_before_, nullptr);
+  sigaction(SIGTERM, &terminate_before_, nullptr);
+}
+
+std::optional<StopSignal> StopSignals::asked() const {
+  if (noted == SIGINT) return StopSignal::interrupt;
+  if (noted == SIGTERM) return StopSignal::terminate;
+  return std::nullopt;
+}
+
+}  // namespace app
