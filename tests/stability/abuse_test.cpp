@@ -88,10 +88,11 @@ TEST_P(Abuse, LeavesEveryStateFiniteAndEveryEnergyAccounted) {
 #else
   const int ticks = 600;
 #endif
-  Scene scene = live_block(each.mass, 6, 4);
+  // Too large for all eigenvalues at every change of parameters.
+  Scene scene = live_block(each.mass, 8, 5);
   scene.time.step = 0.0;
   scene.time.integrator = each.integrator;
-  if (each.tied) scene.constraints.push_back({{{15, Axis::x, 1.0}, {16, Axis::x, -1.0}}, 0.0, "tie"});
+  if (each.tied) scene.constraints.push_back({{{19, Axis::x, 1.0}, {20, Axis::x, -1.0}}, 0.0, "tie"});
   if (each.many_parts) {
     Material& m = scene.material;
     m.more_branches.push_back({0.0, m.mu_ela, forever, 0.2 * m.mu_vis});
