@@ -51,6 +51,14 @@ void Child::send(int signal) const {
   kill(process_, signal);
 }
 
+bool Child::pause() {
+  if (ended_) return false;
+  send(SIGSTOP);
+  waitpid(process_, &status_, WUNTRACED);
+  ended_ = !WIFSTOPPED(status_);
+  return !ended_;
+}
+
 bool Child::has_ended() {
   if (!ended_) ended_ = waitpid(process_, &status_, WNOHANG) == process_;
   return ended_;

@@ -27,6 +27,8 @@ class Child {
   ~Child();
 
   void send(int signal) const;
+  // Holds it where it is, until SIGCONT; false where it has ended before.
+  bool pause();
   bool has_ended();
   Ended wait();
   // Until the condition holds or the program has ended; whether it holds.

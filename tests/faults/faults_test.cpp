@@ -9,6 +9,7 @@
 #include <array>
 #include <csignal>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "child.hpp"
@@ -67,9 +68,17 @@ class Faults : public testing::Test {
   fs::path results() const { return folder_ / "r"; }
   fs::path undisturbed() const { return folder_ / "undisturbed/r"; }
 
-  // Waits for the first checkpoint and so many bytes of history.csv behind it.
-  bool wait_for_checkpoint(Child& child) const {
-    return child.wait_until([&] { return fs::exists(results() / "checkpoint.rheo"); });
+  // A run held well before its end, with a checkpoint to go on from; one that was too quick is run again.
+  std::unique_ptr<Child> held_run(const std::function<void()>& prepare = {}) const {
+    for (int trial = 0; trial < 50; ++trial) {
+      const fs::path file = results() / "checkpoint.rheo";
+      if (fs::exists(results()))
+        for (const fs::directory_entry& entry : fs::directory_iterator(results())) fs::remove_all(entry);
+      auto child = std::make_unique<Child>(folder_, case_.arguments, prepare);
+      if (!child->wait_until([&] { return fs::exists(file); }) || !child->pause()) continue;
+      if (rheo::read_checkpoint(file).snapshot.state.t < 0.7 * 2.0 * run_length) return child;
+    }
+    return nullptr;
   }
 
   void expect_line(const Ended& ended, int exit_code, const Strings& parts) const {
@@ -104,11 +113,11 @@ TEST_F(Faults, KilledAtRandomMomentsARunGoesOnToTheSameEnd) {
 
 TEST_F(Faults, ASignalEndsTheRunAfterTheOutputInHandAndItGoesOn) {
   for (const auto& [signal, name] : {std::pair{SIGINT, "SIGINT"}, std::pair{SIGTERM, "SIGTERM"}}) {
-    fs::remove_all(results());
-    Child child(folder_, case_.arguments);
-    ASSERT_TRUE(wait_for_checkpoint(child));
-    child.send(signal);
-    const Ended ended = child.wait();
+    const auto child = held_run();
+    ASSERT_TRUE(child);
+    child->send(signal);
+    child->send(SIGCONT);
+    const Ended ended = child->wait();
     expect_line(ended, 128 + signal, {name, "--resume"});
     EXPECT_THAT(ended.out, HasSubstr("force evaluations"));
     const auto json = nlohmann::json::parse(read_text(results() / "run.json"));
@@ -136,10 +145,10 @@ TEST_F(Faults, ResumeSaysWhatThereIsToGoOnFrom) {
 }
 
 TEST_F(Faults, AnotherRunIsNotGoneOnWith) {
-  Child child(folder_, case_.arguments);
-  ASSERT_TRUE(wait_for_checkpoint(child));
-  child.send(SIGKILL);
-  child.wait();
+  const auto child = held_run();
+  ASSERT_TRUE(child);
+  child->send(SIGKILL);
+  child->wait();
   const std::string checkpoint = read_text(results() / "checkpoint.rheo");
   expect_line(run(folder_, with({"--resume", "--duration", "3"})), 2, {"checkpoint.rheo", "--duration", "3"});
   expect_line(run(folder_, with({"--resume", "--kernel", "csr"})), 2, {"checkpoint.rheo", "--kernel"});
@@ -156,10 +165,10 @@ TEST_F(Faults, AnotherRunIsNotGoneOnWith) {
 }
 
 TEST_F(Faults, APartThatIsNotTheCheckpointsIsRefused) {
-  Child child(folder_, case_.arguments);
-  ASSERT_TRUE(wait_for_checkpoint(child));
-  child.send(SIGKILL);
-  child.wait();
+  const auto child = held_run();
+  ASSERT_TRUE(child);
+  child->send(SIGKILL);
+  child->wait();
   std::string part = read_text(results() / "history.csv.part");
   part[part.find('\n') + 3] ^= 1;
   std::ofstream(results() / "history.csv.part", std::ios::binary) << part;
@@ -168,16 +177,15 @@ TEST_F(Faults, APartThatIsNotTheCheckpointsIsRefused) {
 }
 
 TEST_F(Faults, TwoProgramsDoNotShareAFolder) {
-  Child child(folder_, case_.arguments);
-  ASSERT_TRUE(wait_for_checkpoint(child));
-  child.send(SIGSTOP);
+  const auto child = held_run();
+  ASSERT_TRUE(child);
   std::ofstream(folder_ / "other.toml", std::ios::binary) << case_.scene;
   const fs::path elsewhere = folder_ / "elsewhere";
   fs::create_directories(elsewhere);
   const Ended other = run(elsewhere, {"run", "../scene.toml", "-o", "../r", "--force"});
   expect_line(other, 4, {"another rheo is writing into it"});
-  child.send(SIGCONT);
-  EXPECT_EQ(child.wait().exit_code, 0);
+  child->send(SIGCONT);
+  EXPECT_EQ(child->wait().exit_code, 0);
   EXPECT_THAT(differences(results(), undisturbed()), IsEmpty());
 }
 
@@ -228,12 +236,11 @@ TEST_F(Faults, AFullDiskIsOneLineAndTheRunGoesOnWhenThereIsRoom) {
 }
 
 TEST_F(Faults, AFolderThatGoesIsOneLine) {
-  Child child(folder_, case_.arguments);
-  ASSERT_TRUE(wait_for_checkpoint(child));
-  child.send(SIGSTOP);
+  const auto child = held_run();
+  ASSERT_TRUE(child);
   fs::remove_all(results());
-  child.send(SIGCONT);
-  expect_line(child.wait(), 4, {"r: is gone"});
+  child->send(SIGCONT);
+  expect_line(child->wait(), 4, {"r: is gone"});
   EXPECT_FALSE(fs::exists(results()));
 }
 
@@ -247,12 +254,13 @@ TEST_F(Faults, AFolderThatBecomesReadOnlyIsOneLine) {
   const auto prepare = [&] {
     if (as_root && (setgid(nobody) != 0 || setuid(nobody) != 0)) _exit(125);
   };
-  Child child(folder_, case_.arguments, prepare);
-  if (!wait_for_checkpoint(child)) GTEST_SKIP() << "cannot be run by another user: " << child.wait().err;
-  child.send(SIGSTOP);
+  if (const Ended probe = run(folder_, {"--version"}, prepare); probe.exit_code != 0)
+    GTEST_SKIP() << "cannot be run by another user: " << probe.err;
+  const auto child = held_run(prepare);
+  ASSERT_TRUE(child);
   fs::permissions(results(), fs::perms::owner_read | fs::perms::owner_exec);
-  child.send(SIGCONT);
-  expect_line(child.wait(), 4, {"Permission denied"});
+  child->send(SIGCONT);
+  expect_line(child->wait(), 4, {"Permission denied"});
   EXPECT_THAT(faults_in(results(), undisturbed()), IsEmpty());
   fs::permissions(results(), fs::perms::owner_all);
   const Ended ended = run(folder_, with({"--resume"}), prepare);

@@ -88,8 +88,7 @@ std::vector<RunCase> run_cases(double length, bool pictures) {
       {"rk4, edge", scene_text(41, 11, "lumped", grab, 2.0 * length, 200, "rk4"), with({"run"})},
       {"rk4, several materials, vtu", scene_text(17, 5, "lumped", grab + region, 2.0 * length, 60, "rk4"),
        with({"run"}, {"--vtu"})},
-      {"euler, csr", scene_text(9, 3, "consistent", tie, 2.0 * length, 200, "euler"),
-       with({"run"}, {"--step", "2e-4"})},
+      {"euler, csr", scene_text(9, 3, "consistent", tie, 0.4 * length, 500, "euler"), with({"run"})},
       {"exponential", scene_text(41, 11, "lumped", grab, 3.0 * length, 300, "exponential"), with({"run"})},
       {"implicit, constraint", scene_text(25, 7, "consistent", grab + tie, 2.0 * length, 100, "implicit"),
        with({"run"})}};
