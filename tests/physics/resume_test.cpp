@@ -56,8 +56,8 @@ TEST(Resume, AnotherMaterialBeginsWithTheSameState) {
   EXPECT_EQ(next.time(), live.time());
   EXPECT_EQ(largest_difference(live.simulation().u(), next.simulation().u()), 0.0);
   EXPECT_EQ(largest_difference(live.simulation().w_mu(), next.simulation().w_mu()), 0.0);
-  const auto balance = [](const Live& live) {
-    const Energies e = live.simulation().energies();
+  const auto balance = [](const Live& of) {
+    const Energies e = of.simulation().energies();
     return e.kinetic + e.stored + e.dissipated - e.work;
   };
   const Energies start = next.simulation().energies();
