@@ -27,9 +27,9 @@ using testing::StartsWith;
 using Strings = std::vector<std::string>;
 
 #ifdef __SANITIZE_ADDRESS__
-constexpr double run_length = 0.3;
+constexpr double run_length = 0.3, held_length = 0.6;
 #else
-constexpr double run_length = 1.0;
+constexpr double run_length = 1.0, held_length = 10.0;  // held at some tenth of it on a quick machine
 #endif
 
 #ifdef RHEO_HAS_RENDERER
@@ -45,7 +45,7 @@ class Faults : public testing::Test {
     folder_ = fs::path(RHEO_TEST_OUTPUT) / (std::string(test->test_suite_name()) + "." + test->name());
     fs::remove_all(folder_);
     fs::create_directories(folder_);
-    use(run_cases(run_length, pictures).front());
+    use(run_cases(held_length, pictures).front());
   }
 
   // Its scene and an undisturbed run of it, to compare with.
@@ -76,7 +76,7 @@ class Faults : public testing::Test {
         for (const fs::directory_entry& entry : fs::directory_iterator(results())) fs::remove_all(entry);
       auto child = std::make_unique<Child>(folder_, case_.arguments, prepare);
       if (!child->wait_until([&] { return fs::exists(file); }) || !child->pause()) continue;
-      if (rheo::read_checkpoint(file).snapshot.state.t < 0.7 * 2.0 * run_length) return child;
+      if (rheo::read_checkpoint(file).snapshot.state.t < 0.7 * 2.0 * held_length) return child;
     }
     return nullptr;
   }
