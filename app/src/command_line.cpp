@@ -51,6 +51,8 @@ struct Texts {
   std::string scene, folder, integrator, step, tolerance, accuracy, duration, frame_rate, threads;
   std::string size, color, branch, range, backend, sheet;
   std::string kernel, csv, budget, seconds, checkpoint, from;
+  std::string memory_limit, output_limit;
+  bool allow_outside = false;
   bool vtu = false, force = false, resume = false, quiet = false, allow_unstable = false, no_energies = false,
        plot = false;
 };
@@ -255,11 +257,32 @@ void add_view_options(CLI::App& command, Texts& texts) {
   command.add_flag("--quiet", texts.quiet, "print nothing unless something fails")->group(group);
 }
 
+// A scene may come from a stranger.
+void add_limit_options(CLI::App& command, Texts& texts) {
+  const char* group = "Limits";
+  command
+      .add_option("--memory-limit", texts.memory_limit,
+                  "GB that may be used: what needs more is refused before it is begun;\n"
+                  "default: what the machine has available")
+      ->type_name("NUMBER")
+      ->group(group);
+  command
+      .add_option("--output-limit", texts.output_limit,
+                  fmt::format("outputs that a run may have; default {:g}", rheo::max_outputs))
+      ->type_name("NUMBER")
+      ->group(group);
+  command
+      .add_flag("--allow-outside", texts.allow_outside,
+                "let the scene read files that are neither beside nor below it")
+      ->group(group);
+}
+
 CLI::App* add_command(CLI::App& program, Texts& texts, const std::string& name,
                       const std::string& description) {
   CLI::App* command = program.add_subcommand(name, description);
   command->add_option("SCENE", texts.scene, "scene file (TOML)")->required()->type_name("");
   if (name != "bench") add_time_options(*command, texts);
+  add_limit_options(*command, texts);
   command->group("Commands");
   command->footer(fmt::format("{}\n{}", examples, exit_codes));
   return command;
@@ -365,6 +388,12 @@ Options read_values(const Texts& texts, const CLI::App& command) {
   if (given("--frame-rate"))
     options.frame_rate = {positive_number("--frame-rate", texts.frame_rate, "outputs per second"),
                           texts.frame_rate};
+  if (given("--memory-limit"))
+    options.read.memory = 1e9 * positive_number("--memory-limit", texts.memory_limit, "GB");
+  options.simulation.memory = options.read.memory;
+  if (given("--output-limit"))
+    options.read.outputs = positive_number("--output-limit", texts.output_limit, "outputs");
+  if (texts.allow_outside) options.read.outside = rheo::OutsideFiles::allowed;
   options.simulation.allow_unstable = texts.allow_unstable;
   options.simulation.energies = !texts.no_energies;
   if (given("--kernel")) options.simulation.kernel = kernel_choice("--kernel", texts.kernel);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "rheo/io/read_options.hpp"
 #include "rheo/scene.hpp"
 #include "rheo/simulation.hpp"
 
@@ -62,6 +63,7 @@ struct Options {
   std::filesystem::path from;        // a checkpoint to begin with; empty: at rest
   rheo::SimulationOptions simulation;
   bool quiet = false;
+  rheo::ReadOptions read;
 };
 
 // nullopt: help or the version was asked for and printed.

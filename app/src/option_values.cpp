@@ -14,6 +14,7 @@
 #include "failure.hpp"
 #include "nearest.hpp"
 #include "rheo/limits.hpp"
+#include "rheo/memory_limit.hpp"
 #include "rheo/scene.hpp"
 
 namespace app {
@@ -147,13 +148,28 @@ std::string picture_sizes() {
                      rheo::max_picture_side, rheo::max_picture_side);
 }
 
+namespace {
+
+// What a picture that is too large would take; empty where the text says no size.
+std::string need_of_picture(std::string_view text, std::size_t cross) {
+  if (cross == std::string_view::npos) return {};
+  const auto width = whole_text<double>(text.substr(0, cross)),
+             height = whole_text<double>(text.substr(cross + 1));
+  if (!width || !height || !(*width > rheo::max_picture_side || *height > rheo::max_picture_side)) return {};
+  return fmt::format("; this one needs about {} of memory",
+                     rheo::memory_text(rheo::bytes_a_pixel * *width * *height));
+}
+
+}  // namespace
+
 std::array<int, 2> picture_size(const std::string& option, const std::string& text) {
   const std::size_t cross = text.find_first_of("xX");
+  const std::string need = need_of_picture(text, cross);
   const auto side = [&](std::string_view part, int smallest) {
     const std::optional<int> value = whole_text<int>(part);
     if (!value || *value < smallest || *value > rheo::max_picture_side)
       refuse(option, text,
-             fmt::format("must be WIDTHxHEIGHT in pixels, {}, such as 1280x720", picture_sizes()));
+             fmt::format("must be WIDTHxHEIGHT in pixels, {}, such as 1280x720{}", picture_sizes(), need));
     return *value;
   };
   const std::string_view whole = text;

@@ -5,6 +5,7 @@
 #include "failure.hpp"
 #include "option_values.hpp"
 #include "rheo/io/scene_file.hpp"
+#include "rheo/memory_limit.hpp"
 
 namespace app {
 namespace {
@@ -20,11 +21,14 @@ std::string typed(const char* name, const std::optional<TypedNumber>& option, co
 
 // The scene's own values go together, its reader has seen to it: what does not, the options have done.
 void require_countable(const Options& options, const rheo::TimeSettings& time) {
-  if (const double outputs = time.duration * time.frame_rate; !(outputs <= rheo::max_outputs)) {
-    throw Failure(ExitCode::usage,
-                  fmt::format("{}: {:.3g} outputs, {:g} per second for {:g} s; at most {:.0e} are allowed",
-                              typed("--duration", options.duration, "--frame-rate", options.frame_rate),
-                              outputs, time.frame_rate, time.duration, rheo::max_outputs));
+  if (const double outputs = time.duration * time.frame_rate; !(outputs <= time.most_outputs)) {
+    throw Failure(
+        ExitCode::usage,
+        fmt::format("{}: {:.3g} outputs, {:g} per second for {:g} s, {} of memory for their names alone; at "
+                    "most {:.0e} are allowed, unless --output-limit says more",
+                    typed("--duration", options.duration, "--frame-rate", options.frame_rate), outputs,
+                    time.frame_rate, time.duration, rheo::memory_text(rheo::bytes_an_output * outputs),
+                    time.most_outputs));
   }
   if (time.step == 0.0) return;
   if (const double steps = time.duration / time.step; !(steps <= rheo::max_steps)) {
@@ -38,7 +42,7 @@ void require_countable(const Options& options, const rheo::TimeSettings& time) {
 }  // namespace
 
 rheo::Scene load_scene(const Options& options) {
-  rheo::Scene scene = rheo::read_scene(options.scene);
+  rheo::Scene scene = rheo::read_scene(options.scene, options.read);
   if (options.integrator) scene.time.integrator = *options.integrator;
   // What the command line says of the step, the tolerance or the accuracy stands for all that the scene says.
   if (options.step || options.tolerance) scene.time.accuracy = 0.0;

@@ -3,18 +3,18 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <Eigen/OrderingMethods>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
 #include "motion.hpp"
 #include "rheo/error.hpp"
+#include "rheo/memory_limit.hpp"
 #include "timeline.hpp"
 
 namespace rheo {
 namespace {
-
-constexpr double schur_memory_limit = 4e9;  // bytes
 
 // A pivot of the Schur complement is the squared sine of the angle between a constraint and those before it
 // (relative to its diagonal); below this it is rounding.
@@ -31,6 +31,31 @@ char axis_name(int dof) {
 bool agree(const Holder& a, const Holder& b) {
   if (a.move == nullptr || b.move == nullptr) return a.move == b.move;
   return same_course(*a.move, *b.move);
+}
+
+// Of L in L D L^T, by its elimination tree (Davis, Direct Methods for Sparse Linear Systems, ch. 4) in the
+// order that Eigen takes; no further than what exceeds `most`.
+double factor_bytes(const Eigen::SparseMatrix<double>& matrix, double most) {
+  constexpr double entry_bytes = 12.0;
+  Eigen::AMDOrdering<int>::PermutationType order;  // which row comes at each place
+  Eigen::AMDOrdering<int>()(matrix, order);
+  const Eigen::Index size = matrix.cols();
+  std::vector<int> place(static_cast<std::size_t>(size)), parent(place.size(), -1), visited(place.size(), -1);
+  for (int k = 0; k < size; ++k) place[static_cast<std::size_t>(order.indices()[k])] = k;
+  double entries = 0.0;
+  for (int k = 0; k < size && entry_bytes * entries <= most; ++k) {
+    visited[static_cast<std::size_t>(k)] = k;
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix, order.indices()[k]); it; ++it) {
+      int i = place[static_cast<std::size_t>(it.row())];
+      if (i > k) continue;
+      for (; visited[static_cast<std::size_t>(i)] != k; i = parent[static_cast<std::size_t>(i)]) {
+        if (parent[static_cast<std::size_t>(i)] < 0) parent[static_cast<std::size_t>(i)] = k;
+        visited[static_cast<std::size_t>(i)] = k;
+        ++entries;
+      }
+    }
+  }
+  return entry_bytes * entries;
 }
 
 }  // namespace
@@ -76,14 +101,14 @@ std::vector<HeldDof> held_dofs(const std::vector<Holder>& holders, const std::ve
 }
 
 ConstraintSolver::ConstraintSolver(const Model& model, const std::vector<HeldDof>& eliminated,
-                                   std::vector<Column> columns)
+                                   std::vector<Column> columns, double memory)
     : model_(model), columns_(std::move(columns)), free_(model.layout.part, 1) {
   for (const HeldDof& h : eliminated) free_[h.dof] = 0;
   const auto size = static_cast<Eigen::Index>(model.layout.part);
   work_.setZero(size);
   correction_.setZero(size);
   factor_mass();
-  if (!columns_.empty()) factor_schur();
+  if (!columns_.empty()) factor_schur(memory);
 }
 
 void ConstraintSolver::hold(const std::vector<HeldDof>& eliminated) {
@@ -159,17 +184,19 @@ double ConstraintSolver::row_times(std::size_t column, const double* x) const {
   return sum;
 }
 
-void ConstraintSolver::factor_schur() {
+void ConstraintSolver::factor_schur(double memory) {
   const std::size_t m = columns_.size();
   const bool dense = !model_.is_lumped();
-  if (dense && 40.0 * static_cast<double>(m) * static_cast<double>(m) > schur_memory_limit) {
-    throw Error(
-        Error::Kind::input,
-        fmt::format(
-            "{} general constraints with consistent mass need about {:.1f} GB, the limit is {:.1f} GB: use "
-            "mass = \"lumped\" or constraints = \"auto\"",
-            m, 40e-9 * static_cast<double>(m) * static_cast<double>(m), schur_memory_limit * 1e-9));
-  }
+  const MemoryLimit limit = memory_limit(memory);
+  const auto require = [&](double bytes) {
+    if (bytes <= limit.bytes) return;
+    throw Error(Error::Kind::input,
+                fmt::format("{} general constraints{} need {} of memory or more, {}", m,
+                            dense ? " with consistent mass" : "", memory_text(bytes),
+                            beyond(limit, dense ? "use mass = \"lumped\" or constraints = \"auto\""
+                                                : "take fewer [[constraint]] that meet")));
+  };
+  if (dense) require(40.0 * static_cast<double>(m) * static_cast<double>(m));
   // Columns by degree of freedom, to find the few that a vector M^-1 A_j touches.
   std::vector<std::vector<std::pair<int, double>>> by_dof(free_.size());
   for (std::size_t j = 0; j < m; ++j) {
@@ -215,6 +242,7 @@ void ConstraintSolver::factor_schur() {
     if (!(diagonal > dependent_pivot * largest * largest / mass)) refuse_dependent(j);
     scale[j] = diagonal;
   }
+  require(factor_bytes(schur, limit.bytes));
   schur_ = std::make_unique<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>();
   schur_->compute(schur);
   pivots_ = schur_->vectorD();

@@ -11,7 +11,7 @@
 // Shapes   r, a: 2n; L, target: one per general constraint
 // Errors   Error::Kind::input: a node held in two ways at once, dependent or contradictory general
 // constraints, more of
-//          them than memory for their dense Schur complement (consistent mass)
+//          them than memory for their Schur complement (dense with consistent mass) and its factor
 #pragma once
 
 #include <Eigen/SparseCholesky>
@@ -54,7 +54,9 @@ struct Column {
 
 class ConstraintSolver {
  public:
-  ConstraintSolver(const Model& model, const std::vector<HeldDof>& eliminated, std::vector<Column> columns);
+  // `memory` [bytes] may be used for the Schur complement; 0: what this machine has available.
+  ConstraintSolver(const Model& model, const std::vector<HeldDof>& eliminated, std::vector<Column> columns,
+                   double memory = 0.0);
 
   const std::vector<Column>& columns() const { return columns_; }
   bool is_free(std::size_t dof) const { return free_[dof] != 0; }
@@ -74,7 +76,7 @@ class ConstraintSolver {
   using Factor = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>;
 
   void factor_mass();
-  void factor_schur();
+  void factor_schur(double memory);
   void solve_schur(Vector& x) const;
   void apply_inverse_mass(const Vector& r, Vector& a) const;  // free rows only
   [[noreturn]] void refuse_dependent(std::size_t column) const;

@@ -11,6 +11,7 @@
 
 #include "rheo/error.hpp"
 #include "rheo/limits.hpp"
+#include "rheo/memory_limit.hpp"
 
 namespace rheo {
 namespace {
@@ -207,10 +208,13 @@ void validate(const TimeSettings& time) {
   positive("duration", time.duration, "s");
   positive("frame_rate", time.frame_rate, "outputs per second");
   if (time.baumgarte != 0.0) positive("baumgarte", time.baumgarte, "1/s");
-  if (const double outputs = time.duration * time.frame_rate; !(outputs <= max_outputs)) {
-    refuse(where, fmt::format("frame_rate = {}: {:.3g} outputs in {} s; at most {:.0e} are allowed: "
-                              "lower it, or the duration",
-                              time.frame_rate, outputs, time.duration, max_outputs));
+  if (const double outputs = time.duration * time.frame_rate; !(outputs <= time.most_outputs)) {
+    refuse(where,
+           fmt::format("frame_rate = {}: {:.3g} outputs in {} s, {} of memory for their names alone; at "
+                       "most {:.0e} are allowed: lower it, or the duration, or raise the limit with "
+                       "--output-limit",
+                       time.frame_rate, outputs, time.duration, memory_text(bytes_an_output * outputs),
+                       time.most_outputs));
   }
   if (!(time.step >= 0.0) || !std::isfinite(time.step)) {
     refuse(where, fmt::format("step = {}: \"auto\" or a finite number > 0 (s) is needed", time.step));
@@ -242,10 +246,16 @@ void validate(const PictureSettings& picture) {
   for (std::size_t i = 0; i < 2; ++i) {
     if (picture.size[i] >= min_picture_size[i] && picture.size[i] <= max_picture_side) continue;
     refuse(where,
-           fmt::format("size = [{}, {}]: a width of {} to {} and a height of {} to {} pixels are allowed",
-                       picture.size[0], picture.size[1], min_picture_size[0], max_picture_side,
-                       min_picture_size[1], max_picture_side));
+           fmt::format(
+               "size = [{}, {}]: about {} of memory; a width of {} to {} and a height of {} to {} pixels "
+               "are allowed, which OpenGL draws",
+               picture.size[0], picture.size[1],
+               memory_text(bytes_a_pixel * std::abs(1.0 * picture.size[0] * picture.size[1])),
+               min_picture_size[0], max_picture_side, min_picture_size[1], max_picture_side));
   }
+  if (picture.sheet.size() > most_sheet_times)
+    refuse(where, fmt::format("sheet = {} times: at most {} shapes are drawn", picture.sheet.size(),
+                              most_sheet_times));
   if (picture.branch < 0)
     refuse(where, fmt::format("branch = {}: 0 for all, or a Maxwell branch from 1 on", picture.branch));
   const auto [low, high] = picture.range;

@@ -25,8 +25,12 @@ bool has_columns(const Scene& scene) {
   return !scene.constraints.empty() || (scene.time.constraints == ConstraintMethod::baumgarte && held);
 }
 
-Schedule::Schedule(const Scene& scene, const Model& model)
-    : scene_(scene), model_(model), events_(event_times(scene)), holders_(holders_of(scene)) {
+Schedule::Schedule(const Scene& scene, const Model& model, double memory)
+    : scene_(scene),
+      model_(model),
+      memory_(memory),
+      events_(event_times(scene)),
+      holders_(holders_of(scene)) {
   for (const Traction& traction : scene.tractions) {
     load_pattern(scene.mesh, traction.edges, patterns_.emplace_back());
   }
@@ -113,7 +117,7 @@ Schedule::Held Schedule::make_held(const Signature& active) const {
       columns.push_back({{{h.dof, 1.0}}, 0.0, h.owner, holders_[h.owner].where});
     eliminated.clear();
   }
-  result.solver = std::make_shared<ConstraintSolver>(model_, eliminated, std::move(columns));
+  result.solver = std::make_shared<ConstraintSolver>(model_, eliminated, std::move(columns), memory_);
   return result;
 }
 
@@ -130,7 +134,8 @@ std::shared_ptr<const ConstraintSolver> Schedule::solver_holding(std::size_t i,
                    [](const HeldDof& a, const HeldDof& b) { return a.dof == b.dof; }))
       return known.solver;
   }
-  holding_.push_back({set_of_[i], held, std::make_shared<ConstraintSolver>(model_, held, general_columns())});
+  holding_.push_back(
+      {set_of_[i], held, std::make_shared<ConstraintSolver>(model_, held, general_columns(), memory_)});
   return holding_.back().solver;
 }
 

@@ -32,8 +32,8 @@ void add_traction(Interval& interval, const LoadPattern& pattern, const std::arr
 
 class Schedule {
  public:
-  // Both must outlive this.
-  Schedule(const Scene& scene, const Model& model);
+  // Both must outlive this. `memory`: of ConstraintSolver.
+  Schedule(const Scene& scene, const Model& model, double memory = 0.0);
 
   std::size_t interval_count() const { return events_.size(); }
   double begin(std::size_t i) const { return events_[i]; }
@@ -80,6 +80,7 @@ class Schedule {
 
   const Scene& scene_;
   const Model& model_;
+  double memory_;
   std::vector<double> events_;
   std::vector<Holder> holders_;
   std::vector<LoadPattern> patterns_;          // by traction

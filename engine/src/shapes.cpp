@@ -8,20 +8,22 @@
 
 #include "rheo/error.hpp"
 #include "rheo/limits.hpp"
+#include "rheo/memory_limit.hpp"
 
 namespace rheo {
 namespace {
 
-// Refuses before any memory is asked for. Two numbers of 8 bytes a node and three of 4 a triangle: the mesh
-// alone.
-void check_memory(const std::string& what, double nodes, double triangles) {
-  if (nodes <= static_cast<double>(max_shape_nodes)) return;
-  const double gigabytes = (16.0 * nodes + 12.0 * triangles) / 1e9;
-  throw Error(
-      Error::Kind::input,
-      fmt::format(
-          "{}: {:.3g} nodes, about {:.3g} GB for the mesh alone; at most {} million nodes are allowed", what,
-          nodes, gigabytes, max_shape_nodes / 1'000'000));
+// Refuses before any memory is asked for.
+void check_memory(const std::string& what, double nodes, double memory) {
+  const double need = bytes_a_shape_node * nodes;
+  if (const MemoryLimit limit = memory_limit(memory); need > limit.bytes) {
+    throw Error(Error::Kind::input, fmt::format("{}: {:.3g} nodes need about {} of memory, {}", what, nodes,
+                                                memory_text(need), beyond(limit, "take fewer")));
+  }
+  if (nodes > static_cast<double>(max_shape_nodes)) {
+    throw Error(Error::Kind::input, fmt::format("{}: {:.3g} nodes; at most {} million nodes are allowed",
+                                                what, nodes, max_shape_nodes / 1'000'000));
+  }
 }
 
 void check_length(const std::string& what, double length) {
@@ -37,13 +39,13 @@ void check_length(const std::string& what, double length) {
 
 }  // namespace
 
-Mesh rectangle(Vec2 size, int nx, int ny, Diagonal diagonal) {
+Mesh rectangle(Vec2 size, int nx, int ny, Diagonal diagonal, double memory) {
   check_length("rectangle width", size.x);
   check_length("rectangle height", size.y);
   const std::string what = fmt::format("rectangle nodes = [{}, {}]", nx, ny);
   if (nx < 2 || ny < 2) throw Error(Error::Kind::input, what + ": at least 2 nodes each way are needed");
   const double count = static_cast<double>(nx) * static_cast<double>(ny);
-  check_memory(what, count, 2.0 * count);
+  check_memory(what, count, memory);
 
   Mesh mesh;
   mesh.points.reserve(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
@@ -84,12 +86,12 @@ Mesh rectangle(Vec2 size, int nx, int ny, Diagonal diagonal) {
   return mesh;
 }
 
-Mesh disk(double radius, int rings) {
+Mesh disk(double radius, int rings, double memory) {
   check_length("disk radius", radius);
   const std::string what = fmt::format("disk rings = {}", rings);
   if (rings < 1) throw Error(Error::Kind::input, what + ": at least 1 is needed");
   const double k2 = static_cast<double>(rings) * static_cast<double>(rings);
-  check_memory(what, 1.0 + 3.0 * (k2 + rings), 6.0 * k2);
+  check_memory(what, 1.0 + 3.0 * (k2 + rings), memory);
 
   // Node i of ring k, counted round the ring; ring 0 is the middle.
   const auto node = [](int k, int i) { return k == 0 ? 0 : 1 + 3 * k * (k - 1) + i % (6 * k); };

@@ -11,6 +11,7 @@
 #include "rheo/deformation.hpp"
 #include "rheo/error.hpp"
 #include "rheo/io/bytes.hpp"
+#include "rheo/memory_need.hpp"
 #include "schedule.hpp"
 #include "stepping.hpp"
 
@@ -21,8 +22,9 @@ constexpr double not_asked = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t unasked_stride = 16;  // steps between looks at the energy where nobody asks for it
 
 // Before anything is made of it.
-Scene validated(Scene scene) {
+Scene validated(Scene scene, const SimulationOptions& options) {
   validate(scene);
+  require_memory(scene, options.memory);
   return scene;
 }
 
@@ -41,7 +43,7 @@ struct Simulation::Impl {
         scene(decided(std::move(s), plan)),
         model(scene.mesh, regions_of(scene), assembly_for(scene, options.kernel)),
         asked(options),
-        schedule(scene, model),
+        schedule(scene, model, options.memory),
         spectrum(schedule.spectrum()),
         body(make_body(scene, model, options.threads)),
         integrator(make_integrator(scene.time.integrator, body->size(),
@@ -146,7 +148,7 @@ struct Simulation::Impl {
 };
 
 Simulation::Simulation(Scene scene, SimulationOptions options)
-    : impl_(std::make_unique<Impl>(validated(std::move(scene)), options)) {}
+    : impl_(std::make_unique<Impl>(validated(std::move(scene), options), options)) {}
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;

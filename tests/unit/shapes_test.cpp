@@ -102,8 +102,12 @@ TEST(Shapes, RefuseHugeMeshesBeforeTheMemoryIsAskedFor) {
   EXPECT_THAT(error_of([] {
                 rectangle({1, 1}, 1'000'000, 1'000'000);
               }),
-              AllOf(HasSubstr("[1000000, 1000000]"), HasSubstr("1e+12 nodes"), HasSubstr("4e+04 GB"),
-                    HasSubstr("20 million")));
+              AllOf(HasSubstr("[1000000, 1000000]"), HasSubstr("1e+12 nodes"), HasSubstr("1.4e+05 GB"),
+                    HasSubstr("--memory-limit")));
+  EXPECT_THAT(error_of([] { rectangle({1, 1}, 100, 100, Diagonal::falling, 1e6); }),
+              HasSubstr("10000 nodes need about 1.4 MB of memory, the limit is 1 MB"));
+  EXPECT_THAT(error_of([] { rectangle({1, 1}, 20'000, 20'000, Diagonal::falling, 1e15); }),
+              HasSubstr("150 million"));
   EXPECT_THAT(error_of([] { rectangle({1, 1}, most, most); }), HasSubstr("GB"));
   EXPECT_THAT(error_of([] { disk(1.0, 100'000); }), AllOf(HasSubstr("100000"), HasSubstr("3e+10 nodes")));
   EXPECT_THAT(error_of([] { disk(1.0, most); }), HasSubstr("GB"));

@@ -90,6 +90,7 @@ void view_scene(const Options& options) {
   settings.read = [options](const std::filesystem::path& file) {
     Options other;
     other.scene = file;
+    other.read = options.read;
     return load_scene(other);
   };
   view::CoreSettings core;

@@ -13,6 +13,11 @@ namespace rheo {
 inline constexpr double smallest_size = 1e-30;
 inline constexpr double largest_size = 1e30;
 
+// Against slips of the pen that would fill a disk or never end.
+inline constexpr double max_outputs =
+    1e7;  // duration * frame_rate, unless the reader of a scene is told else
+inline constexpr double bytes_an_output = 300.0;  // of memory, for the names of its files in lists
+
 // For quantities of either sign and for times: 0 and tiny remainders of rounding are welcome.
 inline bool within_size(double value) {
   return std::abs(value) <= largest_size;

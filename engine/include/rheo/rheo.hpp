@@ -10,6 +10,8 @@
 #include "rheo/live.hpp"
 #include "rheo/material.hpp"
 #include "rheo/material_presets.hpp"
+#include "rheo/memory_limit.hpp"
+#include "rheo/memory_need.hpp"
 #include "rheo/mesh.hpp"
 #include "rheo/prony_fit.hpp"
 #include "rheo/relaxation.hpp"

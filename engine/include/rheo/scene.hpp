@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "rheo/limits.hpp"
 #include "rheo/material.hpp"
 #include "rheo/material_origin.hpp"
 #include "rheo/mesh.hpp"
@@ -117,7 +118,8 @@ struct TimeSettings {
                              // 0: not asked for
   double baumgarte = 20.0;   // omega [1/s]; 0: no stabilisation, constraints hold to the rounding of A^T v
   ConstraintMethod constraints = ConstraintMethod::automatic;
-  std::string where;  // for messages about the step: "beam.toml:31: [time]"
+  double most_outputs = max_outputs;  // that duration and frame_rate may give
+  std::string where;                  // for messages about the step: "beam.toml:31: [time]"
 };
 
 enum class ColorBy { w_lambda, w_mu, w, speed, none };
@@ -130,7 +132,8 @@ struct PictureSettings {
   std::array<int, 2> size{1280, 720};     // pixels
   std::optional<std::array<double, 4>>
       bounds;                 // x0, y0, x1, y1 that pictures show [m]; none: the whole motion
-  std::vector<double> sheet;  // times of the sheet's shapes, strictly rising [s]; empty: as suits the run
+  std::vector<double> sheet;  // times of the sheet's shapes, strictly rising [s], at most most_sheet_times;
+                              // empty: as suits the run
   std::vector<std::string> captions;  // of these shapes, each may be empty; as many as times, or none
 };
 
@@ -179,10 +182,12 @@ inline const Material& material_of(const Scene& scene, std::size_t number) {
 std::size_t most_branches(const Scene& scene);
 
 // Limits against slips of the pen that would fill a disk or never end.
-inline constexpr double max_outputs = 1e7;                       // duration * frame_rate
 inline constexpr double max_steps = 1e12;                        // duration / step
 inline constexpr std::array<int, 2> min_picture_size{240, 160};  // below it texts do not fit; width, height
-inline constexpr int max_picture_side = 16384;
+inline constexpr int max_picture_side = 16384;                   // what OpenGL draws
+inline constexpr std::size_t most_sheet_times = 64;
+// Of frame buffers with 4 samples and depth, and of two pictures on their way to a file.
+inline constexpr double bytes_a_pixel = 48.0;
 
 inline constexpr double finest_tolerance = 1e-13;  // below it rounding rules
 inline constexpr double coarsest_tolerance = 0.1;

@@ -12,7 +12,7 @@
 // Shapes   u, v, w_lambda, w_mu, reaction: n x 2, node by node (x0, y0, x1, y1, ...)
 // Errors   the constructor: Error::Kind::input (values, contradictory or dependent constraints, a step beyond
 // the stable
-//          limit); advance: a Divergence, never an exception, never a reset
+//          limit, more memory than may be taken); advance: a Divergence, never an exception, never a reset
 // Threads  inside a step only; one Simulation is used by one thread at a time, several are independent
 // Not here files, pictures
 #pragma once
@@ -113,6 +113,7 @@ struct SimulationOptions {
   bool energies = true;        // without: dissipated and work are not known (NaN), and a step costs less
   double stable_share = 0.25;  // of the stable limit: the largest step where the scene gives none
   int threads = 0;             // of edge and element; 0: as many as pay. The result does not depend on it.
+  double memory = 0.0;  // [bytes] that it may take (memory_need.hpp); 0: what this machine has available
   // Where the scene asks for an accuracy: told at each output which trial run of the choice (1, 2, ...) has
   // come how far (up to 1).
   std::function<void(int, double)> planning = {};

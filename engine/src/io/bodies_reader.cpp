@@ -141,7 +141,7 @@ void place(Mesh& mesh, Vec2 position, double angle) {
 
 }  // namespace
 
-Scene read_bodies(const TomlValue& root, const std::string& file, const std::filesystem::path& folder) {
+Scene read_bodies(const TomlValue& root, const std::string& file, Allowance& allowance) {
   for (const std::string& key : body_keys()) {
     if (const TomlEntry* entry = root.find(key))
       throw Error(Error::Kind::input, fmt::format("{}:{}: {} beside [[body]]: each body has its own, body.{}",
@@ -162,7 +162,7 @@ Scene read_bodies(const TomlValue& root, const std::string& file, const std::fil
     const std::string name = reader.text("name", fmt::format("body {}", scene.bodies.size() + 1));
     if (name.empty() || !names.insert(name).second)
       reader.refuse_text("name", name, "each body needs a name of its own, not empty");
-    Scene body = read_body(value, file, folder, "body.", value.line);
+    Scene body = read_body(value, file, allowance, "body.", value.line);
     if (!scene.bodies.empty() && body.mesh.thickness != thickness)
       reader.refuse(
           fmt::format("[body.mesh] thickness = {:g}: all bodies of a scene have one thickness, {:g} m "

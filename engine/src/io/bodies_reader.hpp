@@ -9,14 +9,14 @@
 // Errors   as body_reader.hpp; keys of a body beside [[body]]
 #pragma once
 
-#include <filesystem>
 #include <string>
 
+#include "io/allowance.hpp"
 #include "io/toml_tree.hpp"
 #include "rheo/scene.hpp"
 
 namespace rheo {
 
-Scene read_bodies(const TomlValue& root, const std::string& file, const std::filesystem::path& folder);
+Scene read_bodies(const TomlValue& root, const std::string& file, Allowance& allowance);
 
 }  // namespace rheo

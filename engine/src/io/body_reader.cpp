@@ -23,9 +23,9 @@ using Words = std::vector<std::string>;
 
 class BodyReader {
  public:
-  BodyReader(const TomlValue& root, const std::string& file, const std::filesystem::path& folder,
-             const std::string& owner, int line)
-      : file_(file), folder_(folder), owner_(owner), tables_(root, file, owner, line) {}
+  BodyReader(const TomlValue& root, const std::string& file, Allowance& allowance, const std::string& owner,
+             int line)
+      : file_(file), allowance_(allowance), owner_(owner), tables_(root, file, owner, line) {}
 
   Scene read() {
     read_mesh();
@@ -70,7 +70,10 @@ class BodyReader {
       const TomlValue& rings =
           mesh.require("rings", "the number of rings of triangles, 1 or more, is needed");
       const int count = mesh.integer("rings", rings, 1, most, "whole number");
-      mesh.attribute("rings", rings, [&] { scene_.mesh = disk(radius, count); });
+      mesh.attribute("rings", rings, [&] {
+        scene_.mesh = disk(radius, count, allowance_.memory.left());
+        take_mesh();
+      });
       return;
     }
     refuse_other_keys(mesh, {"radius", "rings"}, "shape = \"disk\"");
@@ -84,17 +87,26 @@ class BodyReader {
     const int nx = mesh.integer("nodes[0]", nodes.items[0], 2, most, "whole number");
     const int ny = mesh.integer("nodes[1]", nodes.items[1], 2, most, "whole number");
     const auto diagonal = static_cast<Diagonal>(mesh.choice("diagonal", diagonals, 0));
-    mesh.attribute("nodes", nodes, [&] { scene_.mesh = rectangle(extent, nx, ny, diagonal); });
+    mesh.attribute("nodes", nodes, [&] {
+      scene_.mesh = rectangle(extent, nx, ny, diagonal, allowance_.memory.left());
+      take_mesh();
+    });
+  }
+
+  void take_mesh() {
+    const double nodes = scene_.mesh.node_count();
+    allowance_.memory.take(bytes_a_shape_node * nodes, fmt::format("{:.3g} nodes", nodes), "take fewer");
   }
 
   void read_mesh_file(const TableReader& mesh) {
     const TomlValue& file = *mesh.find("file");
     const std::string name = mesh.text("file", {});
     if (name.empty()) mesh.refuse("file", file, "the name of a Gmsh file (.msh) is needed");
-    const std::filesystem::path path = folder_ / name;
     mesh.attribute("file", file, [&] {
+      const std::filesystem::path path = allowance_.files.resolve(name);
       LeftOutNodes left_out;
-      scene_.mesh = read_msh(path, &left_out);
+      scene_.mesh = read_msh(path, &left_out, allowance_.memory.left());
+      take_mesh();
       note_left_out(left_out);
       scene_.files.push_back(path.string());
       note_turned(prepare(scene_.mesh, path.string()));
@@ -134,7 +146,7 @@ class BodyReader {
     MaterialReading reading = rheo::read_material(
         tables_.required_value_of(
             "material", "lambda_ela, mu_ela, lambda_vis, mu_vis and density (or a preset, parts or data)"),
-        file_, folder_, owner_);
+        file_, allowance_, owner_);
     scene_.material = std::move(reading.material);
     scene_.origin = std::move(reading.origin);
     scene_.files.insert(scene_.files.end(), reading.files.begin(), reading.files.end());
@@ -142,7 +154,8 @@ class BodyReader {
   }
 
   void read_regions() {
-    for (const TomlValue& value : tables_.list("region")) read_region(value, file_, folder_, owner_, scene_);
+    for (const TomlValue& value : tables_.list("region"))
+      read_region(value, file_, allowance_, owner_, scene_);
     check_regions(scene_);
     drop_unused_material();
   }
@@ -160,7 +173,7 @@ class BodyReader {
   }
 
   void read_items() {
-    ItemReader items(scene_.mesh, scene_.files, file_, folder_, owner_);
+    ItemReader items(scene_.mesh, scene_.files, file_, allowance_, owner_);
     if (const TomlEntry* edges = tables_.find("edges")) items.add_groups(*edges);
     for (const TomlValue& value : tables_.list("fix")) scene_.fixes.push_back(items.fix(value));
     for (const TomlValue& value : tables_.list("move")) scene_.moves.push_back(items.move(value));
@@ -171,7 +184,7 @@ class BodyReader {
   }
 
   const std::string& file_;
-  const std::filesystem::path& folder_;
+  Allowance& allowance_;
   const std::string& owner_;
   TableSet tables_;
   Scene scene_;
@@ -185,9 +198,9 @@ const std::vector<std::string>& body_keys() {
   return keys;
 }
 
-Scene read_body(const TomlValue& root, const std::string& file, const std::filesystem::path& folder,
+Scene read_body(const TomlValue& root, const std::string& file, Allowance& allowance,
                 const std::string& owner, int line) {
-  return BodyReader(root, file, folder, owner, line).read();
+  return BodyReader(root, file, allowance, owner, line).read();
 }
 
 }  // namespace rheo

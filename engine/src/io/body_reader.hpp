@@ -7,10 +7,10 @@
 //          that cannot be read
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "io/allowance.hpp"
 #include "io/toml_tree.hpp"
 #include "rheo/scene.hpp"
 
@@ -21,7 +21,7 @@ const std::vector<std::string>& body_keys();
 
 // A scene of that body alone, without title, body force, time and picture; its mesh as given, prepared.
 // `owner`: what its tables' names begin with: "" or "body."; `line`: where it begins.
-Scene read_body(const TomlValue& root, const std::string& file, const std::filesystem::path& folder,
+Scene read_body(const TomlValue& root, const std::string& file, Allowance& allowance,
                 const std::string& owner, int line);
 
 }  // namespace rheo

@@ -50,10 +50,10 @@ Moduli part_of(const Moduli& part) {
 }  // namespace
 
 void fit_data(const std::filesystem::path& file, DataKind kind, const PronyOptions& options,
-              MeasuredMaterial& measured) {
+              MeasuredMaterial& measured, MemoryBudget& memory) {
   const bool sweep = kind == DataKind::sweep;
-  const NumberTable table =
-      sweep ? read_table(file, 3, "frequency, storage, loss") : read_table(file, 2, "time, modulus");
+  const NumberTable table = sweep ? read_table(file, 3, "frequency, storage, loss", memory)
+                                  : read_table(file, 2, "time, modulus", memory);
   measured.file = file.string();
   check_abscissa(table, measured.file, kind);
   for (const std::vector<double>& row : table.rows) {

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <string>
 
+#include "memory_budget.hpp"
 #include "rheo/material.hpp"
 #include "rheo/material_origin.hpp"
 #include "rheo/prony_fit.hpp"
@@ -21,7 +22,7 @@ enum class DataKind { relaxation, sweep };
 
 // Reads the points into `measured` and fits them.
 void fit_data(const std::filesystem::path& file, DataKind kind, const PronyOptions& options,
-              MeasuredMaterial& measured);
+              MeasuredMaterial& measured, MemoryBudget& memory);
 
 // Gives a material the branches and parts of the fit.
 void set_series(const MeasuredMaterial& measured, Material& material);

@@ -75,10 +75,10 @@ Words keys_of(const TomlValue& table) {
 
 class MaterialReader {
  public:
-  MaterialReader(const TomlValue& table, const std::string& file, const std::filesystem::path& folder,
+  MaterialReader(const TomlValue& table, const std::string& file, Allowance& allowance,
                  const std::string& owner)
       : file_(file),
-        folder_(folder),
+        allowance_(allowance),
         name_(owner + "material"),
         top_(table, file, fmt::format("[{}]", name_), table.line, keys_of(table)) {}
 
@@ -251,12 +251,13 @@ class MaterialReader {
     MeasuredMaterial measured = read_fit_settings(way, value);
     const std::string name = top_.text(way, {});
     if (name.empty()) top_.refuse(way, value, "the name of a CSV file is needed");
-    const std::filesystem::path path = folder_ / name;
     top_.attribute(way, value, [&] {
-      fit_data(path, way == "frequency" ? DataKind::sweep : DataKind::relaxation, options_, measured);
+      const std::filesystem::path path = allowance_.files.resolve(name);
+      fit_data(path, way == "frequency" ? DataKind::sweep : DataKind::relaxation, options_, measured,
+               allowance_.memory);
       set_series(measured, reading_.material);
+      reading_.files.push_back(path.string());
     });
-    reading_.files.push_back(path.string());
     if (const std::string note = doubt_about(measured); !note.empty())
       reading_.notes.push_back(fmt::format("{} = {}: {}", way, written(value), note));
     reading_.origin.measured = std::move(measured);
@@ -348,7 +349,7 @@ class MaterialReader {
   }
 
   const std::string& file_;
-  const std::filesystem::path& folder_;
+  Allowance& allowance_;
   std::string name_;  // "material", "body.material"
   TableReader top_;
   Plane plane_ = Plane::strain;
@@ -359,9 +360,9 @@ class MaterialReader {
 
 }  // namespace
 
-MaterialReading read_material(const TomlValue& table, const std::string& file,
-                              const std::filesystem::path& folder, const std::string& owner) {
-  return MaterialReader(table, file, folder, owner).read();
+MaterialReading read_material(const TomlValue& table, const std::string& file, Allowance& allowance,
+                              const std::string& owner) {
+  return MaterialReader(table, file, allowance, owner).read();
 }
 
 }  // namespace rheo

@@ -19,10 +19,10 @@
 //          that cannot be read
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "io/allowance.hpp"
 #include "io/toml_tree.hpp"
 #include "rheo/material.hpp"
 #include "rheo/material_origin.hpp"
@@ -36,9 +36,8 @@ struct MaterialReading {
   std::vector<std::string> notes;  // for the user
 };
 
-// `file` stands for the scene in messages, `folder` is where relative paths start, `owner` is what the
-// table's name begins with ("body.").
-MaterialReading read_material(const TomlValue& table, const std::string& file,
-                              const std::filesystem::path& folder, const std::string& owner = {});
+// `file` stands for the scene in messages, `owner` is what the table's name begins with ("body.").
+MaterialReading read_material(const TomlValue& table, const std::string& file, Allowance& allowance,
+                              const std::string& owner = {});
 
 }  // namespace rheo

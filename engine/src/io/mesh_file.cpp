@@ -8,6 +8,7 @@
 #include "io/msh_content.hpp"
 #include "io/msh_input.hpp"
 #include "io/read_file.hpp"
+#include "memory_budget.hpp"
 #include "rheo/error.hpp"
 
 namespace rheo {
@@ -18,7 +19,8 @@ constexpr std::size_t most_bytes = std::size_t{4} << 30;
 // Versions 2.2 and 4.1 differ in how they write nodes and elements, and 4.1 has $Entities.
 class MshReader {
  public:
-  MshReader(std::string bytes, const std::string& name) : in_(std::move(bytes), name) {}
+  MshReader(std::string bytes, const std::string& name, double memory)
+      : in_(std::move(bytes), name), memory_(memory_limit(memory)) {}
 
   Mesh read(LeftOutNodes* left_out) {
     read_format();
@@ -142,8 +144,7 @@ class MshReader {
       const bool is_curve = i < curves;
       if (i < curves + surfaces) {
         const std::size_t groups = in_.count_size("an entity's number of physical groups", 4, 1);
-        // Each element is entered in each of its groups: without a limit a small file could ask for much
-        // memory.
+        // Each element is entered in each of its groups.
         constexpr std::size_t most_groups = 1000;
         if (groups > most_groups)
           in_.refuse("{} {} is in {} physical groups: at most {} are read", is_curve ? "curve" : "surface",
@@ -157,6 +158,18 @@ class MshReader {
     }
   }
 
+  // Before they are read: a triangle in many physical groups stands in the list once for each of them.
+  void book(std::size_t count, double bytes, const char* what) {
+    try {
+      memory_.take(bytes * static_cast<double>(count), fmt::format("{} {}", count, what),
+                   "take a coarser mesh");
+    } catch (const Error& error) {
+      in_.refuse("{}", error.what());
+    }
+  }
+  void book_nodes(std::size_t count) { book(count, 150.0, "nodes"); }
+  void book_elements(std::size_t count) { book(count, 150.0, "elements"); }
+
   // Version 2.2 writes these counts as text in binary files too.
   std::size_t text_count(const char* what, std::size_t bytes, std::size_t numbers) {
     const auto encoding = in_.use_text();
@@ -169,6 +182,7 @@ class MshReader {
 
   void read_nodes_2() {
     const std::size_t count = text_count("the number of nodes", 28, 4);
+    book_nodes(count);
     for (std::size_t i = 0; i < count; ++i) {
       const int tag = in_.integer("a node's tag");
       add_node(tag, false);
@@ -195,6 +209,7 @@ class MshReader {
       if (dimension < 0 || dimension > 3)
         in_.refuse("a node block of dimension {}: 0 to 3 is expected", dimension);
       const std::size_t count = in_.count_size("a node block's number of nodes", 32, 4);
+      book_nodes(count);
       tags.clear();
       for (std::size_t i = 0; i < count; ++i) tags.push_back(in_.size("a node's tag"));
       for (const std::int64_t tag : tags) {
@@ -206,6 +221,7 @@ class MshReader {
 
   void read_elements_2() {
     const std::size_t count = text_count("the number of elements", 8, 4);
+    book_elements(count);
     std::size_t done = 0;
     while (done < count) {
       // In text each element stands alone: tag type tags; in binary blocks have a head: type number tags.
@@ -251,6 +267,7 @@ class MshReader {
         const auto& known = dimension == 1 ? content_.curve_groups : content_.surface_groups;
         if (const auto found = known.find(entity); found != known.end()) groups = found->second;
       }
+      book_elements(count * std::max<std::size_t>(1, groups.size()));
       for (std::size_t i = 0; i < count; ++i) {
         const std::int64_t tag = in_.size("an element's tag");
         std::array<std::int64_t, 3> nodes{};
@@ -271,18 +288,22 @@ class MshReader {
   }
 
   MshInput in_;
+  MemoryBudget memory_;
   MshContent content_;
   bool version_4_ = false;
 };
 
 }  // namespace
 
-Mesh read_msh(const std::filesystem::path& file, LeftOutNodes* left_out) {
-  return parse_msh(read_file(file, "mesh", most_bytes, "$MeshFormat"), file.string(), left_out);
+Mesh read_msh(const std::filesystem::path& file, LeftOutNodes* left_out, double memory) {
+  MemoryBudget budget(memory_limit(memory));
+  book_file(file, budget);
+  return parse_msh(read_file(file, "mesh", most_bytes, "$MeshFormat"), file.string(), left_out,
+                   budget.left());
 }
 
-Mesh parse_msh(std::string bytes, const std::string& name, LeftOutNodes* left_out) {
-  return MshReader(std::move(bytes), name).read(left_out);
+Mesh parse_msh(std::string bytes, const std::string& name, LeftOutNodes* left_out, double memory) {
+  return MshReader(std::move(bytes), name, memory).read(left_out);
 }
 
 }  // namespace rheo

@@ -38,10 +38,9 @@ std::string read_file(const std::filesystem::path& file, const std::string& what
   const std::unique_ptr<std::FILE, CloseFile> stream(std::fopen(file.c_str(), "rb"));
   if (!stream) throw cannot_read(errno);
   std::string text;
-  if (const auto size = std::filesystem::file_size(file, ignored); !ignored) {
-    if (size > limit) refuse_size(file, what, limit);
-    text.reserve(static_cast<std::size_t>(size));
-  }
+  const auto size = std::filesystem::file_size(file, ignored);
+  const bool sized = !ignored;
+  if (sized && size > limit) refuse_size(file, what, limit);
   // Read to the end whatever the size said: devices and pipes have none.
   for (char block[65536];;) {
     errno = 0;
@@ -51,12 +50,24 @@ std::string read_file(const std::filesystem::path& file, const std::string& what
       const std::string_view begin(text);
       const auto first = std::min(begin.find_first_not_of(" \t\r\n"), begin.size());
       if (!begin.substr(first).starts_with(beginning)) return text;
+      if (sized) text.reserve(static_cast<std::size_t>(size));
     }
     if (text.size() > limit) refuse_size(file, what, limit);
     if (count < sizeof block) {
       if (std::ferror(stream.get()) != 0) throw cannot_read(errno);
       return text;
     }
+  }
+}
+
+void book_file(const std::filesystem::path& file, MemoryBudget& memory) {
+  std::error_code unsized;
+  const auto size = static_cast<double>(std::filesystem::file_size(file, unsized));
+  if (unsized) return;
+  try {
+    memory.take(size, "the file's bytes", "take a smaller file");
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}: {}", file.string(), error.what()));
   }
 }
 

@@ -10,11 +10,16 @@
 #include <string>
 #include <string_view>
 
+#include "memory_budget.hpp"
+
 namespace rheo {
 
 // `what` names the kind of file in messages: "scene", "mesh", "table". Of a file that does not begin with
 // `beginning` (blanks apart) only the first piece is read: enough to say what it is not.
 std::string read_file(const std::filesystem::path& file, const std::string& what, std::size_t limit,
                       std::string_view beginning = {});
+
+// Books what a file's bytes take, where it has a size. Refusals name the file.
+void book_file(const std::filesystem::path& file, MemoryBudget& memory);
 
 }  // namespace rheo

@@ -115,7 +115,7 @@ std::vector<std::int32_t> in_shape(const Mesh& mesh, const Inside& inside) {
 
 }  // namespace
 
-void read_region(const TomlValue& table, const std::string& file, const std::filesystem::path& folder,
+void read_region(const TomlValue& table, const std::string& file, Allowance& allowance,
                  const std::string& owner, Scene& scene) {
   static const std::array<std::string, 5> ways{"physical", "box", "disk", "polygon", "triangles"};
   const TableReader reader(table, file, fmt::format("[[{}region]]", owner), table.line,
@@ -141,7 +141,7 @@ void read_region(const TomlValue& table, const std::string& file, const std::fil
       "material", fmt::format("[{}region.material], as [{}material], is needed", owner, owner));
   if (material.type != TomlValue::Type::table)
     reader.refuse("material", material, fmt::format("one table, [{}region.material], is needed", owner));
-  MaterialReading reading = read_material(material, file, folder, owner + "region.");
+  MaterialReading reading = read_material(material, file, allowance, owner + "region.");
   if (material.find("mass") == nullptr) reading.material.mass = scene.material.mass;
   region.material = std::move(reading.material);
   region.origin = std::move(reading.origin);

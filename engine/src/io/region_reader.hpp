@@ -13,16 +13,16 @@
 // Errors   Error::Kind::input: as everywhere in the scene; a region without a triangle
 #pragma once
 
-#include <filesystem>
 #include <string>
 
+#include "io/allowance.hpp"
 #include "io/toml_tree.hpp"
 #include "rheo/scene.hpp"
 
 namespace rheo {
 
 // Adds the region to `scene`, whose mesh and first material are there. `owner`: "" or "body.".
-void read_region(const TomlValue& table, const std::string& file, const std::filesystem::path& folder,
+void read_region(const TomlValue& table, const std::string& file, Allowance& allowance,
                  const std::string& owner, Scene& scene);
 
 // Refuses regions of which later ones have left nothing.

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "io/allowance.hpp"
 #include "io/bodies_reader.hpp"
 #include "io/body_reader.hpp"
 #include "io/message.hpp"
@@ -24,10 +25,12 @@ constexpr std::size_t most_bytes = std::size_t{64} << 20;
 
 class SceneReader {
  public:
-  SceneReader(const std::string& text, const std::string& file, std::filesystem::path folder)
+  SceneReader(const std::string& text, const std::string& file, const std::filesystem::path& folder,
+              const ReadOptions& options)
       : file_(file),
-        folder_(std::move(folder)),
-        root_(parse_toml(text, file)),
+        most_outputs_(options.outputs),
+        allowance_{FileAccess(folder, options.outside), MemoryBudget(memory_limit(options.memory))},
+        root_(parse_toml(text, file, allowance_.memory)),
         tables_(root_, file_, "", 1) {}
 
   Scene read() {
@@ -40,9 +43,9 @@ class SceneReader {
     keys.insert(keys.end(), {"body", "body_force", "time", "render"});
     const TableReader top(root_, file_, "", 1, keys);
     if (tables_.has("body"))
-      scene_ = read_bodies(root_, file_, folder_);
+      scene_ = read_bodies(root_, file_, allowance_);
     else
-      scene_ = read_body(root_, file_, folder_, "", 1);
+      scene_ = read_body(root_, file_, allowance_, "", 1);
     scene_.title = top.text("title", std::filesystem::path(file_).filename().string());
     read_body_force();
     read_time();
@@ -70,6 +73,7 @@ class SceneReader {
     static const std::array<std::string, 2> methods{"auto", "baumgarte"};
     constexpr NumberRule seconds{.low = 0.0, .low_allowed = false, .unit = "s"};
     TimeSettings& t = scene_.time;
+    t.most_outputs = most_outputs_;
     t.duration = time.required_number("duration", seconds, "how long the run is");
     t.frame_rate = time.number("frame_rate", {.low = 0.0, .low_allowed = false, .unit = "outputs per second"},
                                t.frame_rate);
@@ -122,6 +126,7 @@ class SceneReader {
       p.range = {limits.x, limits.y};
     }
     if (const TomlValue* size = render.find("size")) {
+      constexpr int most = std::numeric_limits<int>::max();
       if (size->type != TomlValue::Type::array || size->items.size() != 2) {
         render.refuse(
             "size", *size,
@@ -129,8 +134,8 @@ class SceneReader {
                         min_picture_size[1], max_picture_side, max_picture_side));
       }
       for (std::size_t i = 0; i < 2; ++i) {
-        p.size[i] = render.integer(fmt::format("size[{}]", i), size->items[i], min_picture_size[i],
-                                   max_picture_side, "whole number of pixels");
+        p.size[i] =
+            render.integer(fmt::format("size[{}]", i), size->items[i], 1, most, "whole number of pixels");
       }
     }
     if (const TomlValue* bounds = render.find("bounds")) read_bounds(render, *bounds);
@@ -153,6 +158,10 @@ class SceneReader {
 
   void read_sheet(const TableReader& render, const TomlValue& sheet) {
     std::vector<double>& times = scene_.picture.sheet;
+    if (sheet.items.size() > most_sheet_times)
+      render.refuse(
+          "sheet", sheet,
+          fmt::format("{} times: at most {} shapes are drawn", sheet.items.size(), most_sheet_times));
     bool fits = sheet.type == TomlValue::Type::array && !sheet.items.empty();
     for (std::size_t k = 0; fits && k < sheet.items.size(); ++k) {
       const TomlValue& item = sheet.items[k];  // a time, or [time, "caption"]
@@ -174,7 +183,8 @@ class SceneReader {
   }
 
   const std::string& file_;
-  std::filesystem::path folder_;
+  double most_outputs_;
+  Allowance allowance_;
   TomlValue root_;
   TableSet tables_;
   Scene scene_;
@@ -182,12 +192,13 @@ class SceneReader {
 
 }  // namespace
 
-Scene read_scene(const std::filesystem::path& file) {
-  return parse_scene(read_file(file, "scene", most_bytes), file.string(), file.parent_path());
+Scene read_scene(const std::filesystem::path& file, const ReadOptions& options) {
+  return parse_scene(read_file(file, "scene", most_bytes), file.string(), file.parent_path(), options);
 }
 
-Scene parse_scene(const std::string& text, const std::string& name, const std::filesystem::path& folder) {
-  return SceneReader(text, name, folder).read();
+Scene parse_scene(const std::string& text, const std::string& name, const std::filesystem::path& folder,
+                  const ReadOptions& options) {
+  return SceneReader(text, name, folder, options).read();
 }
 
 }  // namespace rheo

@@ -9,6 +9,7 @@
 #include "io/message.hpp"
 #include "io/table_file.hpp"
 #include "io/table_reader.hpp"
+#include "rheo/error.hpp"
 
 namespace rheo {
 namespace {
@@ -93,6 +94,17 @@ class ItemReader::Item : public TableReader {
     return way == "edges" ? nodes_of(edges(*find(way))) : nodes(*find(way));
   }
 
+  // Books nodes or edges of an item: a short text can name a large group many times.
+  void book(std::size_t count) const {
+    constexpr double bytes = 80.0;  // in the scene, and where a simulation holds or loads them
+    try {
+      owner_.allowance_.memory.take(bytes * static_cast<double>(count), fmt::format("{} nodes", count),
+                                    "take fewer");
+    } catch (const Error& error) {
+      refuse(error.what());
+    }
+  }
+
   Axis axis() const { return static_cast<Axis>(choice("axis", axes, 0)); }
 
   Window window() const {
@@ -111,8 +123,10 @@ class ItemReader::Item : public TableReader {
     NumberTable table;
     std::filesystem::path path;
     if (value.type == TomlValue::Type::string) {
-      path = owner_.folder_ / value.text;
-      attribute("keys", value, [&] { table = read_table(path, columns, form); });
+      attribute("keys", value, [&] {
+        path = owner_.allowance_.files.resolve(value.text);
+        table = read_table(path, columns, form, owner_.allowance_.memory);
+      });
       std::vector<std::string>& files = owner_.files_;
       if (std::find(files.begin(), files.end(), path.string()) == files.end()) files.push_back(path.string());
     } else {
@@ -132,13 +146,13 @@ class ItemReader::Item : public TableReader {
   const ItemReader& owner_;
 };
 
-ItemReader::ItemReader(Mesh& mesh, std::vector<std::string>& files, std::string file,
-                       std::filesystem::path folder, std::string owner)
+ItemReader::ItemReader(Mesh& mesh, std::vector<std::string>& files, std::string file, Allowance& allowance,
+                       std::string owner)
     : mesh_(mesh),
       files_(files),
       edges_(mesh),
       file_(std::move(file)),
-      folder_(std::move(folder)),
+      allowance_(allowance),
       name_(std::move(owner)) {}
 
 void ItemReader::add_groups(const TomlEntry& table) {
@@ -160,6 +174,7 @@ Fix ItemReader::fix(const TomlValue& table) const {
   Fix fix;
   fix.where = item.where();
   fix.nodes = item.group();
+  item.book(fix.nodes.size());
   fix.axis = item.axis();
   fix.window = item.window();
   return fix;
@@ -170,6 +185,7 @@ Move ItemReader::move(const TomlValue& table) const {
   Move move;
   move.where = item.where();
   move.nodes = item.group();
+  item.book(move.nodes.size());
   move.axis = item.axis();
   move.window = item.window();
   move.profile = static_cast<Profile>(item.choice("profile", profiles, 0));
@@ -215,6 +231,7 @@ Traction ItemReader::traction(const TomlValue& table) const {
   Traction traction;
   traction.where = item.where();
   traction.edges = item.edges(item.require("edges", "a group's name or [[i, j], ...] is needed"));
+  item.book(traction.edges.size());
   static const std::array<std::string, 2> ways{"vector", "keys"};
   if (item.exactly_one(ways) == "vector") {
     traction.keys = {{0.0, item.pair("vector", {.unit = "Pa"}, {})}};
@@ -239,6 +256,7 @@ Probe ItemReader::probe(const TomlValue& table) const {
     item.refuse("name", name, "one or more of A-Z, a-z, 0-9, _ and - are needed");
   }
   probe.nodes = item.group();
+  item.book(2 * probe.nodes.size());
   if (const TomlValue* edges = item.find("edges")) probe.edges = item.edges(*edges);
   return probe;
 }

@@ -6,10 +6,10 @@
 //          that cannot be read
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "io/allowance.hpp"
 #include "io/toml_tree.hpp"
 #include "mesh_edges.hpp"
 #include "rheo/scene.hpp"
@@ -19,8 +19,8 @@ namespace rheo {
 class ItemReader {
  public:
   // `mesh` is prepared; its groups may be added to. `files` gets the tables of keys that are opened.
-  // `folder`: where relative paths start. `owner`: what the tables' names begin with ("body.").
-  ItemReader(Mesh& mesh, std::vector<std::string>& files, std::string file, std::filesystem::path folder,
+  // `owner`: what the tables' names begin with ("body.").
+  ItemReader(Mesh& mesh, std::vector<std::string>& files, std::string file, Allowance& allowance,
              std::string owner = {});
 
   // Adds the groups of [edges] to the mesh.
@@ -39,7 +39,7 @@ class ItemReader {
   std::vector<std::string>& files_;
   MeshEdges edges_;
   std::string file_;
-  std::filesystem::path folder_;
+  Allowance& allowance_;
   std::string name_;  // of the tables' owner
 };
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <iterator>
+#include <vector>
 
 namespace rheo {
 namespace {
@@ -16,7 +17,10 @@ std::string quoted(const std::string& text) {
   std::string out = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') out += '\\';
-    out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? ' ' : c;
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
+      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    else
+      out += c;
   }
   return out + '"';
 }
@@ -168,10 +172,11 @@ class SceneWriter {
   }
 
   void time() {
-    static constexpr const char* integrators[]{"rk4", "euler", "exponential", "implicit", "rk4"};
+    static constexpr const char* integrators[]{"rk4", "euler", "exponential", "implicit"};
     const TimeSettings& t = scene_.time;
-    line("\n[time]\nduration = {}\nframe_rate = {}\nintegrator = \"{}\"", number(t.duration),
-         number(t.frame_rate), integrators[static_cast<int>(t.integrator)]);
+    line("\n[time]\nduration = {}\nframe_rate = {}", number(t.duration), number(t.frame_rate));
+    if (t.integrator != IntegratorKind::automatic)
+      line("integrator = \"{}\"", integrators[static_cast<int>(t.integrator)]);
     if (t.step > 0.0) line("step = {}", number(t.step));
     if (t.accuracy > 0.0) line("accuracy = {}", number(t.accuracy));
     line("baumgarte = {}", number(t.baumgarte));
@@ -184,15 +189,14 @@ class SceneWriter {
     line("\n[render]\ncolor = \"{}\"\nsize = [{}, {}]", colors[static_cast<int>(p.color)], p.size[0],
          p.size[1]);
     if (p.branch != 0) line("branch = {}", p.branch);
-    if (!p.sheet.empty()) {
-      std::vector<std::string> shapes;
-      for (std::size_t k = 0; k < p.sheet.size(); ++k) {
-        const bool bare = p.captions.empty() || p.captions[k].empty();
-        shapes.push_back(bare ? number(p.sheet[k])
-                              : fmt::format("[{}, {}]", number(p.sheet[k]), quoted(p.captions[k])));
-      }
-      rows("sheet", shapes, [](const std::string& shape) { return shape; });
+    // A session may be shorter than the scene that it began with.
+    std::vector<std::string> shapes;
+    for (std::size_t k = 0; k < p.sheet.size() && p.sheet[k] <= scene_.time.duration; ++k) {
+      const bool bare = p.captions.empty() || p.captions[k].empty();
+      shapes.push_back(bare ? number(p.sheet[k])
+                            : fmt::format("[{}, {}]", number(p.sheet[k]), quoted(p.captions[k])));
     }
+    if (!shapes.empty()) rows("sheet", shapes, [](const std::string& shape) { return shape; });
     if (p.bounds)
       line("bounds = [{}, {}, {}, {}]", number((*p.bounds)[0]), number((*p.bounds)[1]),
            number((*p.bounds)[2]), number((*p.bounds)[3]));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -91,8 +92,19 @@ NumberTable parse_table(std::string_view text, const std::string& name, std::siz
   return table;
 }
 
-NumberTable read_table(const std::filesystem::path& file, std::size_t columns, std::string_view form) {
-  return parse_table(read_file(file, "table", most_bytes), file.string(), columns, form);
+NumberTable read_table(const std::filesystem::path& file, std::size_t columns, std::string_view form,
+                       MemoryBudget& memory) {
+  // A row's own memory, its line, and the key or point that it becomes.
+  const double bytes_a_row = 120.0 + 16.0 * static_cast<double>(columns);
+  book_file(file, memory);
+  const std::string text = read_file(file, "table", most_bytes);
+  const auto rows = 1.0 + static_cast<double>(std::count(text.begin(), text.end(), '\n'));
+  try {
+    memory.take(bytes_a_row * rows, fmt::format("{:.0f} rows", rows), "take fewer");
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}: {}", file.string(), error.what()));
+  }
+  return parse_table(text, file.string(), columns, form);
 }
 
 }  // namespace rheo

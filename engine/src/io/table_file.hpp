@@ -11,6 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "memory_budget.hpp"
+
 namespace rheo {
 
 struct NumberTable {
@@ -19,7 +21,9 @@ struct NumberTable {
 };
 
 // At least one row, each of `columns` finite numbers; `form` names them in messages: "t, ux, uy".
-NumberTable read_table(const std::filesystem::path& file, std::size_t columns, std::string_view form);
+// read_table books the memory for it.
+NumberTable read_table(const std::filesystem::path& file, std::size_t columns, std::string_view form,
+                       MemoryBudget& memory);
 NumberTable parse_table(std::string_view text, const std::string& name, std::size_t columns,
                         std::string_view form);
 

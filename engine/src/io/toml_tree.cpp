@@ -107,16 +107,28 @@ std::size_t end_of_text(std::string_view text, std::size_t begin) {
   return text.size();
 }
 
-// Refuses what the library does not stand, outside of texts and comments:
-// - characters beyond ASCII, which no valid TOML has there;
-// - keys of very many parts: tables nest as deeply, and are taken apart recursively.
-void check_characters(std::string_view text, const std::string& name) {
-  constexpr int most_parts = 1000;
+// Of the library's tree and of the one made from it, which are there together. Measured with toml++ 3.3 on
+// long lists of numbers, of lists and of tables: 200 bytes a number in a list, 350 a list, 450 a key.
+struct TreeSize {
+  double values = 0.0, bytes = 0.0;
+
+  void add(char sign) {
+    const double more = sign == ',' ? 220.0 : sign == '[' || sign == '{' ? 400.0 : sign == '=' ? 450.0 : 0.0;
+    if (more > 0.0) ++values;
+    bytes += more;
+  }
+};
+
+// Refuses what the library does not stand, outside of texts and comments: characters beyond ASCII, which no
+// valid TOML has there, and deep trees. Tells how large the tree will be.
+TreeSize check_characters(std::string_view text, const std::string& name) {
   constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
   int dots = 0;
+  int depth = 0;
   int line = 1;
+  TreeSize size;
   const auto refuse = [&](const std::string& what) {
-    throw Error(Error::Kind::input, fmt::format("{}:{}: not valid TOML: {}", name, line, what));
+    throw Error(Error::Kind::input, fmt::format("{}:{}: {}", name, line, what));
   };
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -129,14 +141,21 @@ void check_characters(std::string_view text, const std::string& name) {
       line += static_cast<int>(std::count(skipped.begin(), skipped.end(), '\n'));
       i = end - 1;
     } else if (static_cast<unsigned char>(c) >= 0x80) {
-      refuse(fmt::format("{}: characters beyond ASCII are allowed in quotes and comments only",
-                         in_quotes(text.substr(i, 4), 12)));
-    } else if (c == '.' && ++dots > most_parts) {
-      refuse(fmt::format("a key of more than {} parts", most_parts));
+      refuse(
+          fmt::format("not valid TOML: {}: characters beyond ASCII are allowed in quotes and comments only",
+                      in_quotes(text.substr(i, 4), 12)));
+    } else if (c == '.' && ++dots >= most_nested) {
+      refuse(fmt::format("a key of more than {} parts: a scene has none of more than two", most_nested));
+    } else if ((c == '[' || c == '{') && ++depth > most_nested) {
+      refuse(fmt::format("brackets nested more than {} deep: a scene needs no more than four", most_nested));
+    } else if ((c == ']' || c == '}') && depth > 0) {
+      --depth;
     }
+    size.add(c);
     if (c == '\n') ++line;
     if (c == '\n' || c == ',' || c == '=' || c == '[' || c == '{') dots = 0;
   }
+  return size;
 }
 
 }  // namespace
@@ -148,13 +167,19 @@ const TomlEntry* TomlValue::find(std::string_view key) const {
   return nullptr;
 }
 
-TomlValue parse_toml(std::string_view text, const std::string& name) {
+TomlValue parse_toml(std::string_view text, const std::string& name, MemoryBudget& memory) {
   if (const auto zero = text.find('\0'); zero != std::string_view::npos) {
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(zero), '\n');
     throw Error(Error::Kind::input,
                 fmt::format("{}:{}: a zero byte: this is no text file; a TOML text is needed", name, line));
   }
-  check_characters(text, name);
+  const TreeSize size = check_characters(text, name);
+  try {
+    memory.take(size.bytes + 3.0 * static_cast<double>(text.size()),
+                fmt::format("{:.3g} values", size.values), "put long lists into files");
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}: {}", name, error.what()));
+  }
   try {
     const toml::table document = toml::parse(text, std::string_view(name));
     return convert_table(document);
@@ -162,6 +187,11 @@ TomlValue parse_toml(std::string_view text, const std::string& name) {
     throw Error(Error::Kind::input, fmt::format("{}:{}: not valid TOML: {}", name, line_of(error.source()),
                                                 one_line(error.description(), 200)));
   }
+}
+
+TomlValue parse_toml(std::string_view text, const std::string& name) {
+  MemoryBudget memory(memory_limit(0.0));
+  return parse_toml(text, name, memory);
 }
 
 std::string written(const TomlValue& value) {

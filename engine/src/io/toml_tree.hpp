@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "memory_budget.hpp"
+
 namespace rheo {
 
 struct TomlEntry;
@@ -37,7 +39,13 @@ struct TomlEntry {
   TomlValue value;
 };
 
+// Books the tree's memory before it is built. Refuses keys of more parts and brackets nested deeper than
+// most_nested: the library takes its trees apart recursively, and a scene needs three or four.
+TomlValue parse_toml(std::string_view text, const std::string& name, MemoryBudget& memory);
+// The same within what the machine has available.
 TomlValue parse_toml(std::string_view text, const std::string& name);
+
+inline constexpr int most_nested = 32;
 
 // As it would be written, on one line, cut short: 7, "left", [0.5, "x", ...].
 std::string written(const TomlValue& value);

@@ -7,7 +7,8 @@
 //
 // Errors   Error::Kind::input: another format or version, another element type, z that differs, a truncated
 // file,
-//          tags that do not exist; Error::Kind::file where the file cannot be read
+//          tags that do not exist, more nodes and elements than there is memory for; Error::Kind::file where
+//          the file cannot be read
 #pragma once
 
 #include <cstdint>
@@ -24,10 +25,12 @@ struct LeftOutNodes {
   std::int64_t first_tag = 0;  // the file's number of the first of them
 };
 
-// Not prepared yet: the caller sets the thickness and calls prepare().
-Mesh read_msh(const std::filesystem::path& file, LeftOutNodes* left_out = nullptr);
+// Not prepared yet: the caller sets the thickness and calls prepare(). `memory` [bytes] may be taken; 0: what
+// this machine has available.
+Mesh read_msh(const std::filesystem::path& file, LeftOutNodes* left_out = nullptr, double memory = 0.0);
 
 // The same from the file's bytes; `name` stands for the file in messages.
-Mesh parse_msh(std::string bytes, const std::string& name, LeftOutNodes* left_out = nullptr);
+Mesh parse_msh(std::string bytes, const std::string& name, LeftOutNodes* left_out = nullptr,
+               double memory = 0.0);
 
 }  // namespace rheo
