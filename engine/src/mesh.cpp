@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "io/message.hpp"
 #include "mesh_edges.hpp"
 #include "rheo/error.hpp"
 #include "rheo/limits.hpp"
@@ -171,15 +172,16 @@ class Preparation {
       for (Edge& edge : members) {
         const auto oriented = edges.oriented(edge);
         if (!oriented) {
-          refuse("edge ({}, {}) of group \"{}\" is no edge of the mesh (the nodes are numbered 0 to {})",
-                 edge[0], edge[1], group, mesh_.node_count() - 1);
+          refuse("edge ({}, {}) of group {} is no edge of the mesh (the nodes are numbered 0 to {})", edge[0],
+                 edge[1], in_quotes(group), mesh_.node_count() - 1);
         }
         edge = *oriented;
       }
       const auto sorted = undirected(members);
       const auto twice = std::adjacent_find(sorted.begin(), sorted.end());
       if (twice != sorted.end()) {
-        refuse("edge ({}, {}) is twice in group \"{}\"; once is enough", (*twice)[0], (*twice)[1], group);
+        refuse("edge ({}, {}) is twice in group {}; once is enough", (*twice)[0], (*twice)[1],
+               in_quotes(group));
       }
       if (group == "boundary" && sorted != undirected(boundary)) {
         refuse(

@@ -115,8 +115,10 @@ class MshReader {
       const auto last = line.rfind('"');
       if (first != 0 || last == 0)
         in_.refuse("{} where a physical group's name in quotes is expected", in_quotes(line, 30));
-      if (dimension == 1) content_.names[tag] = std::string(line.substr(1, last - 1));
-      if (dimension == 2) content_.surface_names[tag] = std::string(line.substr(1, last - 1));
+      // Gmsh writes what it was given; names go into messages and scene files, which are text.
+      const std::string name = one_line(line.substr(1, last - 1), std::string::npos);
+      if (dimension == 1) content_.names[tag] = name;
+      if (dimension == 2) content_.surface_names[tag] = name;
     }
     in_.set_encoding(encoding);
   }

@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string_view>
 #include <vector>
+
+#include "io/message.hpp"
 
 namespace rheo {
 namespace {
@@ -13,14 +17,20 @@ std::string number(double x) {
   return std::isinf(x) ? (x > 0 ? "inf" : "-inf") : fmt::format("{:.17g}", x);
 }
 
-std::string quoted(const std::string& text) {
+// Bytes that are no text (a file's name as a title, say) as \xNN: TOML has no words for them.
+std::string quoted(std::string_view text) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
   std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    else
+  while (!text.empty()) {
+    const auto end = std::find_if(text.begin(), text.end(), is_control);
+    for (const char c : one_line(std::string_view(text.begin(), end), std::string::npos)) {
+      if (c == '"' || c == '\\') out += '\\';
       out += c;
+    }
+    text.remove_prefix(static_cast<std::size_t>(end - text.begin()));
+    if (text.empty()) break;
+    out += fmt::format("\\u{:04x}", static_cast<unsigned>(text.front()));
+    text.remove_prefix(1);
   }
   return out + '"';
 }
