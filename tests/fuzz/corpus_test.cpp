@@ -17,10 +17,12 @@ const fs::path here = fs::path(RHEO_SOURCE_DIR) / "tests" / "fuzz";
 
 struct Reader {
   const char* name;
+  const char* seeds;  // what fuzzing begins with, beside the corpus
   Verdict (*feed)(std::string_view, const Sandbox&);
 };
-const Reader readers[] = {
-    {"scene", feed_scene}, {"mesh", feed_mesh}, {"command_line", feed_command_line}};
+const Reader readers[] = {{"scene", "app/scenes", feed_scene},
+                          {"mesh", "tests/data/msh", feed_mesh},
+                          {"command_line", "tests/fuzz/corpus/command_line", feed_command_line}};
 
 std::vector<fs::path> files_in(const fs::path& folder) {
   std::vector<fs::path> files;
@@ -58,7 +60,9 @@ void PrintTo(const Reader& reader, std::ostream* out) {
 TEST_P(Corpus, IsReadOrRefusedInOneLine) {
   const Sandbox sandbox;
   int accepted = 0, refused = 0;
-  for (const fs::path& file : files_in(here / "corpus" / GetParam().name))
+  std::vector<fs::path> files = files_in(here / "corpus" / GetParam().name);
+  for (const fs::path& seed : files_in(fs::path(RHEO_SOURCE_DIR) / GetParam().seeds)) files.push_back(seed);
+  for (const fs::path& file : files)
     ++(fed(GetParam(), file, sandbox) == Verdict::accepted ? accepted : refused);
   // Both sides of the reader are in it.
   EXPECT_GT(accepted, 5);

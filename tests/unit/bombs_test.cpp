@@ -175,7 +175,7 @@ Scene clamped(int constraints, Mass mass) {
   scene.material = {.lambda_ela = 7, .mu_ela = 5, .lambda_vis = 4, .mu_vis = 2, .density = 0.2, .mass = mass};
   scene.time.duration = 1.0;
   for (int i = 0; i < constraints; ++i)
-    scene.constraints.push_back({.terms = {{0, Axis::x, 1.0 + i}, {1 + i % 400, Axis::y, 1.0}}});
+    scene.constraints.push_back({.terms = {{0, Axis::x, 1.0 + i}, {1 + i % 400, Axis::y, 1.0}}, .where = {}});
   return scene;
 }
 
@@ -201,7 +201,8 @@ TEST(Bombs, TheFillOfTheConstraintsFactorIsKnownBeforeItIsMade) {
     scene.constraints.push_back({.terms = {{i, Axis::x, 1.0},
                                            {multiple_of_3(), Axis::y, 1.0},
                                            {multiple_of_3() + 1, Axis::y, 0.5},
-                                           {multiple_of_3() + 2, Axis::y, 2.0}}});
+                                           {multiple_of_3() + 2, Axis::y, 2.0}},
+                                 .where = {}});
   }
   EXPECT_LT(memory_need(scene).total(), 2e7);
   EXPECT_THAT(error_of([&] { Simulation(scene, {.memory = 2e7}); }),
@@ -210,7 +211,8 @@ TEST(Bombs, TheFillOfTheConstraintsFactorIsKnownBeforeItIsMade) {
 
 TEST(Bombs, ManyWindows) {
   Scene scene = clamped(0, Mass::lumped);
-  for (int i = 0; i < 100'000; ++i) scene.fixes.push_back({.nodes = {i % 441}, .window = {.from = 1e-6 * i}});
+  for (int i = 0; i < 100'000; ++i)
+    scene.fixes.push_back({.nodes = {i % 441}, .window = {.from = 1e-6 * i}, .where = {}});
   EXPECT_THAT(error_of([&] { require_memory(scene, 1e9); }),
               AllOf(StartsWith("100000 [[fix]] and [[move]] with times of their own need about 30 GB"),
                     HasSubstr("--memory-limit")));
@@ -219,7 +221,9 @@ TEST(Bombs, ManyWindows) {
 TEST(MemoryNeed, CountsANodeForEachMaterialAndBranchThatItHas) {
   Scene scene = clamped(0, Mass::lumped);
   const double plain = memory_need(scene).total();
-  Region region{.name = "r", .material = scene.material};
+  Region region;
+  region.name = "r";
+  region.material = scene.material;
   region.material.lambda_ela = 8;
   scene.regions.push_back(region);
   scene.region_of_triangle.assign(scene.mesh.triangles.size(), 0);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -126,16 +127,24 @@ class SceneReader {
       p.range = {limits.x, limits.y};
     }
     if (const TomlValue* size = render.find("size")) {
-      constexpr int most = std::numeric_limits<int>::max();
       if (size->type != TomlValue::Type::array || size->items.size() != 2) {
         render.refuse(
             "size", *size,
             fmt::format("[width, height], from {} x {} to {} x {} pixels, is needed", min_picture_size[0],
                         min_picture_size[1], max_picture_side, max_picture_side));
       }
+      const double width = size->items[0].number, height = size->items[1].number;
+      if (std::max(width, height) > max_picture_side && std::min(width, height) > 0.0) {
+        render.refuse(
+            "size", *size,
+            fmt::format("about {} of memory; a width of {} to {} and a height of {} to {} pixels are "
+                        "allowed, which OpenGL draws",
+                        memory_text(bytes_a_pixel * width * height), min_picture_size[0], max_picture_side,
+                        min_picture_size[1], max_picture_side));
+      }
       for (std::size_t i = 0; i < 2; ++i) {
-        p.size[i] =
-            render.integer(fmt::format("size[{}]", i), size->items[i], 1, most, "whole number of pixels");
+        p.size[i] = render.integer(fmt::format("size[{}]", i), size->items[i], min_picture_size[i],
+                                   max_picture_side, "whole number of pixels");
       }
     }
     if (const TomlValue* bounds = render.find("bounds")) read_bounds(render, *bounds);
