@@ -67,7 +67,9 @@ MemoryLimit memory_limit(double asked) {
 }
 
 std::string memory_text(double bytes) {
-  return bytes < 1e9 ? fmt::format("{:.3g} MB", bytes * 1e-6) : fmt::format("{:.3g} GB", bytes * 1e-9);
+  constexpr double rounds_to_gigabyte = 0.9995e9;
+  return bytes < rounds_to_gigabyte ? fmt::format("{:.3g} MB", bytes * 1e-6)
+                                    : fmt::format("{:.3g} GB", bytes * 1e-9);
 }
 
 std::string beyond(const MemoryLimit& limit, std::string_view remedy) {

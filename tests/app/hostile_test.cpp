@@ -48,11 +48,11 @@ class Hostile : public ProgramTest {
 TEST_F(Hostile, MeshOfTooManyNodes) {
   expect_refused(small_beam_with("nodes = [5, 2]", "nodes = [1000000, 1000000]"),
                  {"scene.toml:6: [mesh] nodes", "1e+12 nodes need about 1.4e+05 GB", "--memory-limit"});
-  const std::string many = small_beam_with("nodes = [5, 2]", "nodes = [3000, 3000]");
-  expect_refused(many, {"9e+06 nodes need about 1.26 GB of memory, the limit is 1 GB", "--memory-limit"},
-                 "--memory-limit 1");
-  expect_refused(many, {"9000000 nodes need about 8.", "the limit is 3 GB", "--memory-limit"},
-                 "--memory-limit 3");
+  const std::string many = small_beam_with("nodes = [5, 2]", "nodes = [1000, 1000]");
+  expect_refused(many, {"1e+06 nodes need about 140 MB of memory, the limit is 100 MB", "--memory-limit"},
+                 "--memory-limit 0.1");
+  expect_refused(many, {"1000000 nodes need about ", "the limit is 500 MB", "--memory-limit"},
+                 "--memory-limit 0.5");
 }
 
 TEST_F(Hostile, TooManyOutputs) {
@@ -64,8 +64,8 @@ TEST_F(Hostile, TooManyOutputs) {
                  {"--frame-rate '2e9': 1e+09 outputs", "300 GB", "1e+07", "--output-limit"});
   expect_failure(confined("render scene.toml --frame-rate 2e9 --output-limit 2e9 --memory-limit 3"), 2,
                  {"GB of memory, the limit is 3 GB", "--frame-rate", "--memory-limit"});
-  EXPECT_EQ(confined("run scene.toml --output-limit 10 -o r").exit_code, 2);
-  EXPECT_EQ(confined("run scene.toml --output-limit 11 -o r").exit_code, 0);
+  EXPECT_EQ(confined("run scene.toml --output-limit 9 -o r").exit_code, 2);
+  EXPECT_EQ(confined("run scene.toml --output-limit 10 -o r").exit_code, 0);
 }
 
 TEST_F(Hostile, TooLargePictures) {
