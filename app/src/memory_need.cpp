@@ -68,12 +68,11 @@ std::string memory_text(const rheo::Scene& scene, const Options& options, const 
                         double extra) {
   const std::string remedy = remedy_of(options);
   const double need = rheo::memory_need(scene).total() + need_of_command(scene, options) + extra;
-  return fmt::format("{} nodes{} need about {:.3g} GB of memory{}: take a coarser mesh{}{}",
-                     scene.mesh.node_count(),
-                     scene.time.integrator == rheo::IntegratorKind::implicit ? " with implicit" : "",
-                     need * 1e-9, limit,
-                     scene.material.mass == rheo::Mass::lumped ? "" : " or mass = \"lumped\"",
-                     remedy.empty() ? "" : ", or " + remedy);
+  return fmt::format(
+      "{} nodes{} need about {:.3g} GB of memory{}: take a coarser mesh{}{}", scene.mesh.node_count(),
+      scene.time.integrator == rheo::IntegratorKind::implicit ? " with implicit" : "", need * 1e-9, limit,
+      scene.material.mass == rheo::Mass::lumped ? "" : " or mass = \"lumped\"",
+      remedy.empty() ? "" : ", or " + remedy);
 }
 
 void require_memory(const rheo::Scene& scene, const Options& options) {

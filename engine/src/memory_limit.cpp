@@ -1,7 +1,6 @@
 #include "rheo/memory_limit.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -45,15 +44,6 @@ double left_in_group() {
   return most > used ? most - used : 0.0;
 }
 
-double left_in_shell() {
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return none;
-  double pages = 0.0;
-  std::ifstream("/proc/self/statm") >> pages;
-  const double left = static_cast<double>(limit.rlim_cur) - pages * page_size();
-  return left > 0.0 ? left : 0.0;
-}
-
 }  // namespace
 
 MemoryLimit memory_limit(double asked) {
@@ -61,8 +51,6 @@ MemoryLimit memory_limit(double asked) {
   MemoryLimit least{available_here(), "this machine has"};
   if (const double group = left_in_group(); group < least.bytes)
     least = {group, "the control group's limit leaves"};
-  if (const double shell = left_in_shell(); shell < least.bytes)
-    least = {shell, "the shell's limit (ulimit -v) leaves"};
   return least;
 }
 

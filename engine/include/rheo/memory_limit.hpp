@@ -13,8 +13,9 @@ struct MemoryLimit {
   std::string_view whose;  // "this machine has": begins "... 23 GB" in messages
 };
 
-// `asked` where it is not 0, else what this process can get now: what the machine has available, the control
-// group's limit or the shell's (ulimit -v), whichever is least.
+// `asked` where it is not 0, else what this process can get now: what the machine has available or the
+// control group's limit leaves, whichever is less. A shell's limit (ulimit -v) is of addresses, used or not,
+// and no measure of need.
 MemoryLimit memory_limit(double asked);
 
 // "1.5e+05 GB", "64 MB"
