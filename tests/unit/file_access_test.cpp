@@ -149,7 +149,8 @@ TEST(FilesOfASceneText, StartAtItsFolder) {
   EXPECT_THAT(error_of([&] { read("none.csv", top); }, Error::Kind::file), HasSubstr("No such file"));
   EXPECT_THAT(error_of([&] { read(std::string(5000, 'x'), top); }, Error::Kind::file),
               StartsWith("s.toml:13: [[move]] keys"));
-  EXPECT_THAT(error_of([&] { read("k.csv\\u0000", top); }), HasSubstr("zero byte"));
+  EXPECT_THAT(error_of([&] { read("k.csv\\u0000", top); }), HasSubstr("control character"));
+  EXPECT_THAT(error_of([&] { read("k\\n.csv", top); }), HasSubstr("control character"));
   EXPECT_THAT(error_of([&] { read("/etc/passwd", {}); }), HasSubstr("--allow-outside"));
 }
 

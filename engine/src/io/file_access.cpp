@@ -33,8 +33,10 @@ bool lies_in(const fs::path& folder, const fs::path& path) {
 }  // namespace
 
 fs::path FileAccess::resolve(const std::string& name) const {
-  if (name.find('\0') != std::string::npos)
-    throw Error(Error::Kind::input, "a zero byte in the name of a file: no file has one");
+  // The name goes into messages of one line, and a zero byte would cut it short.
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  if (std::any_of(name.begin(), name.end(), is_control))
+    throw Error(Error::Kind::input, "a control character in the name of a file: give the file another name");
   const fs::path path = folder_ / name;
   if (outside_ == OutsideFiles::refused) {
     const fs::path folder = followed(folder_.empty() ? fs::path(".") : folder_);
