@@ -1,8 +1,8 @@
 // Which files a scene may read: regular ones, beside or below itself unless more is allowed.
 //
 // Errors   Error::Kind::input: a path that leads out of the scene's folder (absolute, by "..", by symbolic
-//          links), a name with control characters, a device or a pipe, which could make the reader wait for ever; Error::Kind::file where a
-//          path cannot be followed
+//          links), a name with control characters, a device or a pipe, which could make the reader wait for
+//          ever; Error::Kind::file where a path cannot be followed
 #pragma once
 
 #include <filesystem>
