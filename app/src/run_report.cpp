@@ -14,6 +14,7 @@
 #include "rheo/io/atomic_file.hpp"
 #include "rheo/versions.hpp"
 #include "scene_parts.hpp"
+#include "state_hash.hpp"
 
 namespace app {
 namespace {
@@ -296,6 +297,7 @@ void write_run_report(const std::filesystem::path& path, const Options& options,
   json["bodies"] = bodies_of(scene);
   json["materials"] = materials_json(scene);
   json["outputs"] = report.outputs;
+  json["state_hash"] = report.exit_status ? Json(state_hash(simulation)) : Json(nullptr);
   json["files"] = report.files;
   json["counters"] = counters_of(simulation.counters(), report);
   json["seconds"] = seconds_of(report.seconds);

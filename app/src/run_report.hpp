@@ -7,7 +7,7 @@
 //   null), duration, frame_rate, threads, encoder_threads, renderer mesh: nodes, triangles
 //   bodies: name, nodes, triangles, materials (their numbers) of each of several
 //   materials: number, name, triangles and all numbers of each
-//   outputs; files;
+//   outputs; state_hash: the state's bits at the end (state_hash.hpp); files;
 //   counters; seconds by phase; notes; warnings; exit_status; divergence or null. Of a run that was gone on
 //   with: counters of all of it, seconds up to its latest checkpoint and from there on, drawing counted anew
 //

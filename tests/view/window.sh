@@ -165,5 +165,7 @@ grep -Eq '^[0-9]+ frames in [0-9.]+ s, median [0-9.]+ ms, 99th percentile [0-9.]
 
 # What the hand did, again and headless.
 "$rheo" run saved/session_001.toml -o again --quiet || fail "the session does not run"
+hash=$(sed -n 's/^# state at its end.*: //p' saved/session_001.toml)
+[ -n "$hash" ] && grep -q "\"state_hash\": \"$hash\"" again/run.json || fail "run again, the session ends elsewhere than at $hash"
 cat log
 echo passed

@@ -140,12 +140,8 @@ void Core::start(rheo::Scene scene, const rheo::SavedState* saved) {
     live = make();
   }
   if (live_) steps_before_ += live_->simulation().counters().steps;
-  // A run that goes on with other parameters keeps its books.
-  const rheo::Energies old = live_ && saved ? energies() : rheo::Energies{};
   live_ = std::move(live);
   scene_ = std::move(shared);
-  dissipated_before_ = old.dissipated;
-  work_before_ = old.work;
   whole_ = saved == nullptr || saved->t == 0.0;
   ++run_;
 }
@@ -161,15 +157,8 @@ void Core::begin_again() {
   largest_w_ = 0.0;
   last_event_ = last_event_of(*scene_);
   size_ = size_of(scene_->mesh);
-  const rheo::Energies now = energies();
+  const rheo::Energies now = live_->simulation().energies();
   energy_start_ = now.kinetic + now.stored + now.dissipated - now.work;
-}
-
-rheo::Energies Core::energies() const {
-  rheo::Energies energies = live_->simulation().energies();
-  energies.dissipated += dissipated_before_;
-  energies.work += work_before_;
-  return energies;
 }
 
 void Core::say(std::string message) {
@@ -220,16 +209,22 @@ void Core::let_go() {
 }
 
 bool Core::change(rheo::Scene edited) {
-  const rheo::SavedState saved = live_->simulation().save();
+  // Its books go on: what the energies jump by is work of the change. (Long steps keep none.)
+  rheo::SavedState saved = live_->simulation().save();
+  const rheo::Energies books = live_->simulation().energies();
+  if (std::isfinite(books.work) && std::isfinite(books.dissipated)) saved.energies = books;
+  const double balance = energy_start_;
+  const bool goes_on = live_->ticks() > 0;
   const Hold hold = hold_;
   const std::vector<rheo::Edge> edges = edges_;
   try {
-    start(for_hands(std::move(edited)), live_->ticks() > 0 ? &saved : nullptr);
+    start(for_hands(std::move(edited)), goes_on ? &saved : nullptr);
   } catch (const rheo::Error& error) {
     refuse(error.what());
     return false;
   }
   begin_again();
+  if (goes_on && saved.energies && std::isfinite(balance)) energy_start_ = balance;
   // What the hand has it keeps: a push as it is; a grab begins anew from where it is.
   const rheo::Vec2 target = target_, at = at_, velocity = velocity_, acceleration = acceleration_;
   if (hold != Hold::nothing && begin(hold, edges) && hold == Hold::push) {
@@ -349,7 +344,7 @@ void Core::show(Display& display) {
     if (hold_ != Hold::nothing) display.hand.force = reading.force;
     if (hold_ == Hold::push) display.hand.traction = live_->traction(handle_);
   }
-  display.energies = energies();
+  display.energies = simulation.energies();
   display.energy_start = energy_start_;
   display.steps = steps_before_ + simulation.counters().steps;
   display.stable_step = simulation.stable_step();

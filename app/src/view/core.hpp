@@ -69,7 +69,6 @@ class Core {
   static rheo::LiveSettings live_settings(const rheo::Scene& scene, const CoreSettings& settings);
   void start(rheo::Scene scene, const rheo::SavedState* saved);
   void begin_again();
-  rheo::Energies energies() const;  // of the whole run
   void watch_for_rest();
   void tell_of_accuracy(double accuracy);
   void refuse(const std::string& why);
@@ -89,8 +88,7 @@ class Core {
   rheo::Vec2 target_, at_, velocity_, acceleration_;
   double follow_ = 0.02;  // [s] of simulated time
 
-  double energy_start_ = 0.0;                           // kinetic + stored + dissipated - work
-  double dissipated_before_ = 0.0, work_before_ = 0.0;  // with earlier parameters
+  double energy_start_ = 0.0;  // kinetic + stored + dissipated - work
   double last_event_ = 0.0, size_ = 1.0;
   bool still_ = false;
   double still_since_ = 0.0;

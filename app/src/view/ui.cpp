@@ -11,6 +11,7 @@
 #include "render/context.hpp"
 #include "rheo/error.hpp"
 #include "rheo/io/scene_text.hpp"
+#include "state_hash.hpp"
 
 namespace app::view {
 namespace {
@@ -208,8 +209,11 @@ void Ui::save_session() {
       scene->picture.bounds = seen.bounds;
       scene->picture.range_auto = seen.range_auto;
       scene->picture.range = seen.range;
+      const std::string hash = state_hash(core.live().simulation());
       try {
-        core.say(Recording(folder).text_file("session", ".toml", rheo::scene_text(*scene)));
+        core.say(Recording(folder).text_file(
+            "session", ".toml",
+            "# state at its end, as state_hash in run.json: " + hash + "\n" + rheo::scene_text(*scene)));
       } catch (const std::exception& error) {
         core.say(error.what());
       }

@@ -11,6 +11,7 @@
 #include "failure.hpp"
 #include "overrides.hpp"
 #include "view/glfw_window.hpp"
+#include "view/signal_watch.hpp"
 
 namespace app {
 namespace {
@@ -39,11 +40,11 @@ std::string title_of(const rheo::Scene& scene) {
 }
 
 // Frames at the display's rate while something moves; else none until something happens.
-void show(view::GlfwWindow& window, view::Ui& ui, double close_after) {
+void show(view::GlfwWindow& window, view::Ui& ui, const view::SignalWatch& signals, double close_after) {
   const Clock::time_point start = Clock::now();
   Clock::time_point last = start;
   std::shared_ptr<const rheo::Scene> scene = ui.shown().scene;
-  while (!window.is_closed() && !ui.wants_to_quit()) {
+  while (!window.is_closed() && !ui.wants_to_quit() && signals.asked() == 0) {
     const double left = close_after > 0.0 ? close_after - seconds_since(start) : longest_wait;
     if (left <= 0.0) break;
     if (!window.is_visible()) {
@@ -75,6 +76,7 @@ void show(view::GlfwWindow& window, view::Ui& ui, double close_after) {
 void view_scene(const Options& options) {
   rheo::Scene scene = load_scene(options);
   const auto size = options.size.value_or(std::array<int, 2>{1280, 720});
+  view::SignalWatch signals;
   std::unique_ptr<view::GlfwWindow> window;
   try {
     window = std::make_unique<view::GlfwWindow>(title_of(scene), size[0], size[1]);
@@ -98,8 +100,9 @@ void view_scene(const Options& options) {
   view::Physics physics(std::move(scene), core, [&window] { window->wake(); });
   std::optional<view::Ui> ui(std::in_place, window->context(), physics, std::move(settings));
   physics.run();
+  signals.start([&window] { window->wake(); });
   const Clock::time_point start = Clock::now();
-  show(*window, *ui, options.close_after);
+  show(*window, *ui, signals, options.close_after);
   const double seconds = seconds_since(start);
   const view::Percentiles frames = view::percentiles_of(ui->frame_seconds());
   if (!options.quiet)
@@ -108,6 +111,9 @@ void view_scene(const Options& options) {
         "s\n",
         ui->frame_seconds().size(), seconds, 1e3 * frames.median, 1e3 * frames.high, ui->shown().steps,
         ui->shown().t);
+  if (const int signal = signals.asked())
+    throw Failure(signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated,
+                  fmt::format("view: closed by {}", signal == SIGINT ? "SIGINT" : "SIGTERM"));
 }
 
 }  // namespace app
