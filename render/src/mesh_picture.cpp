@@ -204,9 +204,10 @@ struct MeshPicture::Impl {
     begin();
     const Camera seen = camera(p);
     draw_body(seen, frame, 1, arrow_length(p.body), p.body);
-    body.labels.draw(
-        canvas, body.labels.boxes(canvas, seen, frame.positions, TextSize::normal, line_room(p.body), p.body),
-        TextSize::normal);
+    // Beyond the arrows, in every frame of a sequence that has some.
+    const float gap = line_room(p.body) + (body.arrow_scale > 0 ? arrow_length(p.body) : 0.0f);
+    body.labels.draw(canvas, body.labels.boxes(canvas, seen, frame.positions, TextSize::normal, gap, p.body),
+                     TextSize::normal);
     draw_heading(p, title);
     canvas.flush();
     still_texts = canvas.texts();

@@ -131,7 +131,18 @@ SheetLayout layout_sheet(const Canvas& canvas, const Rect& area, const std::arra
     const Sheet::Choice choice = better(std::move(captioned), std::move(brief_captioned));
     if (!choice.cramped) return sheet.layout(choice);
   }
-  return sheet.layout(better(std::move(whole), std::move(brief)));
+  SheetLayout layout = sheet.layout(better(std::move(whole), std::move(brief)));
+  // Where not all have room, what of each has.
+  constexpr std::size_t least = 6;  // characters, or it says nothing
+  const float gap = 0.8f * canvas.text_size(TextSize::small);
+  for (std::size_t i = 0; i < captions.size() && has_captions; ++i) {
+    SheetLayout::Panel& panel = layout.panels[i];
+    if (panel.time.empty() || captions[i].empty()) continue;
+    const std::string full = panel.time + "   " + std::string(captions[i]);
+    const std::string cut = canvas.fit(TextSize::small, full, panel.cell.x1 - panel.time_at.x - gap);
+    if (cut.size() >= std::min(full.size(), panel.time.size() + 3 + least)) panel.time = cut;
+  }
+  return layout;
 }
 
 int sheet_room(int width, int height) {

@@ -2,7 +2,7 @@
 //
 // All shapes have one scale: the largest that any grid of equal cells gives. A cell is a line for the time
 // and below it the room for the shape with its hatches and arrows, which are shorter in small cells. Times
-// are short ("0.25 s") where that makes the shapes larger; captions are left out where not all have room.
+// are short ("0.25 s") where that makes the shapes larger; captions are cut short where not all have room.
 //
 // Units    pixels; bounds [m], times [s]
 // Errors   none

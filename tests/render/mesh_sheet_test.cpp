@@ -113,6 +113,18 @@ TEST_F(MeshPictures, SheetShowsCaptionsWhereAllHaveRoom) {
   };
   EXPECT_THAT(texts_of(4), testing::IsSupersetOf(
                                {testing::EndsWith("   (a) natural"), testing::EndsWith("   (b) pushed")}));
+  const std::string longest(200, 'x');
+  {
+    std::vector<render::MeshFrame> frames(4, body.frame());
+    frames[0].caption = longest;
+    frames[1].caption = "(b) pushed";
+    picture.sheet(frames);
+    std::vector<std::string> texts;
+    for (const render::TextBox& text : picture.texts()) texts.push_back(text.text);
+    EXPECT_THAT(texts, testing::AllOf(testing::Contains(testing::HasSubstr("   xxxxxx")),
+                                      testing::Contains(testing::EndsWith("   (b) pushed"))))
+        << "one that is too long is cut and hides no other";
+  }
   EXPECT_THAT(texts_of(60), testing::Not(testing::Contains(testing::HasSubstr("pushed"))));
 }
 

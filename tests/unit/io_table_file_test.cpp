@@ -31,11 +31,19 @@ TEST(TableFile, ReadsNumbersHeadersCommentsAndWindowsLines) {
   EXPECT_EQ(parse("1,2,3\n").rows.size(), 1u) << "the header may be left out";
 }
 
+TEST(TableFile, SemicolonsAndTabsSeparateToo) {
+  for (const char* text : {"t; x; y\n0; 1; 2\n3;4;5\n", "t\tx\ty\n0\t1\t2\n3\t4\t5\n"})
+    EXPECT_THAT(parse(text).rows, ElementsAre(ElementsAre(0.0, 1.0, 2.0), ElementsAre(3.0, 4.0, 5.0)))
+        << text;
+}
+
 TEST(TableFile, NamesTheLineAndWhatIsNeeded) {
   EXPECT_THAT(refusal("1,2,3\n4,5\n"),
               AllOf(StartsWith("a.csv:2: "), HasSubstr("only 2 columns"), HasSubstr("t, x, y")));
   EXPECT_THAT(refusal("1,2,3,4\n"), AllOf(StartsWith("a.csv:1: "), HasSubstr("more than 3")));
-  EXPECT_THAT(refusal("1;2;3\n"), HasSubstr("separated by commas"));
+  EXPECT_THAT(refusal("1 2 3\n"),
+              AllOf(HasSubstr("only 1 column:"), HasSubstr("separated by commas, semicolons or tabs")));
+  EXPECT_THAT(refusal("0,5;1;2\n"), HasSubstr("\"0,5\" is no finite number")) << "a decimal comma";
   EXPECT_THAT(refusal("t,x,y\nt,x,y\n"),
               AllOf(StartsWith("a.csv:2: "), HasSubstr("\"t\" is no finite number")));
   EXPECT_THAT(refusal("1,,3\n"), HasSubstr("\"\" is no finite number"));

@@ -243,6 +243,28 @@ time = 0.01
   expect_session_repeats(std::move(scene), pushed, held);
 }
 
+TEST(ViewCore, ShowsOneBranchWhereTheSceneAsksForIt) {
+  rheo::Scene scene = block();
+  scene.material.more_branches.push_back({2000, 900, 40, 18});
+  const auto shown = [&](int branch) {
+    scene.picture.branch = branch;
+    Core core(scene, {});
+    EXPECT_TRUE(core.begin(Hold::push, right_of(core.scene())));
+    core.aim({300.0, 0.0}, 1.0);
+    run(core, 50);
+    Display display;
+    core.show(display);
+    return display;
+  };
+  const Display all = shown(0), first = shown(1), second = shown(2);
+  EXPECT_EQ(all.w_mu_norm, first.w_mu_norm) << "the plots' norms are of all";
+  EXPECT_NE(first.w_mu, second.w_mu);
+  for (std::size_t i = 0; i < all.w_mu.size(); ++i) {
+    EXPECT_LE(all.w_mu[i], (first.w_mu[i] + second.w_mu[i]) * (1 + 1e-12));
+    EXPECT_GE(all.w_mu[i], std::abs(first.w_mu[i] - second.w_mu[i]) * (1 - 1e-12));
+  }
+}
+
 TEST(ViewCore, ABodyThatDivergesIsKeptAndSaysSo) {
   app::view::CoreSettings settings;
   settings.simulation.allow_unstable = true;

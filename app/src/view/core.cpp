@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "node_scalars.hpp"
 #include "rheo/error.hpp"
 
 namespace app::view {
@@ -333,6 +334,10 @@ void Core::show(Display& display) {
   display.linearity = rheo::check_linearity(scene_->mesh, u);
   display.w_lambda_norm = norm(display.w_lambda);
   display.w_mu_norm = norm(display.w_mu);
+  if (const int branch = scene_->picture.branch; branch > 0) {  // one alone is what is coloured
+    find_scalars(simulation, rheo::ColorBy::w_lambda, branch, display.w_lambda);
+    find_scalars(simulation, rheo::ColorBy::w_mu, branch, display.w_mu);
+  }
   display.held = simulation.held_nodes();
   display.tractions = simulation.active_tractions();
   display.hand.hold = hold_;

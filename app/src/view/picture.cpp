@@ -94,7 +94,7 @@ void Picture::build(const Display& display, const PictureStyle& style, int width
   const std::vector<int> boundary = flat_numbers(scene.mesh.edge_groups.at("boundary"));
   const std::vector<int> interfaces = interfaces_of(scene);
   const std::vector<render::BodyLabel> labels = body_labels(scene);
-  const ScalarText scalar = scalar_text(style.color, 0);
+  const ScalarText scalar = scalar_text(style.color, scene.picture.branch);
   picture_.reset();
   picture_ = std::make_unique<render::MeshPicture>(context_,
                                                    render::MeshLayout{.rest = rest,

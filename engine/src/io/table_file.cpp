@@ -30,14 +30,23 @@ std::optional<double> number_in(std::string_view field) {
   return value;
 }
 
+// As laboratories write it: a semicolon goes before a comma, which may be a decimal one then, and is refused
+// as such.
+char separator_of(std::string_view line) {
+  for (const char separator : {';', ',', '\t'})
+    if (line.find(separator) != std::string_view::npos) return separator;
+  return ',';
+}
+
 // Up to one more field than wanted, so that a line of any length costs no more.
 std::vector<std::string_view> split(std::string_view line, std::size_t columns) {
+  const char separator = separator_of(line);
   std::vector<std::string_view> fields;
   while (fields.size() <= columns) {
-    const auto comma = line.find(',');
-    fields.push_back(trim(line.substr(0, comma)));
-    if (comma == std::string_view::npos) break;
-    line.remove_prefix(comma + 1);
+    const auto end = line.find(separator);
+    fields.push_back(trim(line.substr(0, end)));
+    if (end == std::string_view::npos) break;
+    line.remove_prefix(end + 1);
   }
   return fields;
 }
@@ -58,9 +67,10 @@ NumberTable parse_table(std::string_view text, const std::string& name, std::siz
     line = trim(line.substr(0, line.find('#')));
     if (line.empty()) continue;
     const auto refuse = [&](const std::string& what) {
-      throw Error(Error::Kind::input,
-                  fmt::format("{}:{}: {}: {} are needed ({}, separated by commas)", name, number, what,
-                              columns == 1 ? "1 number" : fmt::format("{} numbers", columns), form));
+      throw Error(
+          Error::Kind::input,
+          fmt::format("{}:{}: {}: {} are needed ({}, separated by commas, semicolons or tabs)", name, number,
+                      what, columns == 1 ? "1 number" : fmt::format("{} numbers", columns), form));
     };
     const auto fields = split(line, columns);
     // A row with one number in it is a mistyped row, not a header.
@@ -70,9 +80,9 @@ NumberTable parse_table(std::string_view text, const std::string& name, std::siz
     header_allowed = false;
     if (header && fields.size() == columns) continue;
     if (fields.size() != columns) {
-      refuse(fmt::format("{} has {} {} columns", in_quotes(line, 40),
-                         fields.size() > columns ? "more than" : "only",
-                         fields.size() > columns ? columns : fields.size()));
+      const std::size_t count = std::min(fields.size(), columns);
+      refuse(fmt::format("{} has {} {} column{}", in_quotes(line, 40),
+                         fields.size() > columns ? "more than" : "only", count, count == 1 ? "" : "s"));
     }
     std::vector<double> row;
     row.reserve(columns);

@@ -56,7 +56,7 @@ struct MeshFrame {
   std::span<const int> held;  // nodes that a constraint holds: hatched along boundary edges held at both ends
   std::span<const TractionArrow> arrows;  // one per loaded edge
   double time = 0.0;
-  std::string_view caption{};  // beside the time on a sheet, where all of its captions have room
+  std::string_view caption{};  // beside the time on a sheet, cut short where there is no room
 };
 
 enum class Shade { light, dark };
