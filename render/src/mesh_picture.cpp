@@ -192,10 +192,15 @@ struct MeshPicture::Impl {
     if (!body.bar.name.empty()) draw_color_bar(canvas, body.bar, p.bar);
   }
 
+  // For the traction's value between arrows and names.
+  float value_room() const {
+    return body.arrow_scale > 0 && !body.labels.empty() ? 1.1f * canvas.text_size(TextSize::normal) : 0.0f;
+  }
+
   // The arrows of other frames are not known: room for them on every side.
   Camera camera(const Parts& p) const {
     const float margin = line_room(p.body) + (body.arrow_scale > 0 ? arrow_length(p.body) : 0.0f);
-    const float below = margin + body.labels.room(canvas, TextSize::normal);
+    const float below = margin + body.labels.room(canvas, TextSize::normal) + value_room();
     return Framing(body.bounds, {margin, margin, margin, below}).fit(p.body);
   }
 
@@ -205,7 +210,7 @@ struct MeshPicture::Impl {
     const Camera seen = camera(p);
     draw_body(seen, frame, 1, arrow_length(p.body), p.body);
     // Beyond the arrows, in every frame of a sequence that has some.
-    const float gap = line_room(p.body) + (body.arrow_scale > 0 ? arrow_length(p.body) : 0.0f);
+    const float gap = line_room(p.body) + (body.arrow_scale > 0 ? arrow_length(p.body) : 0.0f) + value_room();
     body.labels.draw(canvas, body.labels.boxes(canvas, seen, frame.positions, TextSize::normal, gap, p.body),
                      TextSize::normal);
     draw_heading(p, title);
