@@ -43,8 +43,8 @@ class Stepping {
   // the parameters of then; what the energies jump by is work.
   void resume(double t, std::span<const double> y, const std::optional<Energies>& before);
 
-  // All but the state of what the next calls hang on (Snapshot), and back with that state in the mesh's order.
-  // Not of one under hands.
+  // All but the state of what the next calls hang on (Snapshot), and back with that state in the mesh's
+  // order. Not of one under hands.
   void put_course(ByteWriter& out);
   void get_course(ByteReader& in, std::span<const double> y);
 

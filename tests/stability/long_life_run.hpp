@@ -6,8 +6,8 @@
 //   balance  kinetic + stored + dissipated - work over what was dissipated, where both are known
 //
 // Rounding can move a body that remembers nothing of its place (a Maxwell material) by some eps of its way a
-// step, and the time, steps * h, itself is known to eps: a drift of eps * steps, and of the tolerance that the
-// exponential integrator is given for all of the run, is what double precision allows at worst.
+// step, and the time, steps * h, itself is known to eps: a drift of eps * steps, and of the tolerance that
+// the exponential integrator is given for all of the run, is what double precision allows at worst.
 //
 // Units    SI; memory [bytes]
 #pragma once

@@ -46,7 +46,8 @@ bool run(const std::string& name, LongLife life) {
   }
   const double allowed = outcome.allowed_drift();
   const bool fine = !outcome.diverged && outcome.finite && outcome.worst_drift() <= allowed;
-  fmt::print("drift {:.2e}, allowed {:.2e}: {}\n\n", outcome.worst_drift(), allowed, fine ? "fine" : "BROKEN");
+  fmt::print("drift {:.2e}, allowed {:.2e}: {}\n\n", outcome.worst_drift(), allowed,
+             fine ? "fine" : "BROKEN");
   std::fflush(stdout);
   return fine;
 }
