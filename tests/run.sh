@@ -19,7 +19,9 @@ for preset in "$@"; do
   start=$(date +%s)
   if cmake --preset "$preset" >/dev/null && cmake --build --preset "$preset"; then
     echo "== $preset: test"
-    if ctest --preset "$preset" -j2 --no-tests=error; then result=passed; else result=FAILED; fi
+    if ctest --preset "$preset" -j2 --no-tests=error; then result=passed; else
+      result="FAILED ($(tr '\n' ' ' <"build/$preset/Testing/Temporary/LastTestsFailed.log"))"
+    fi
   else
     result="did not build"
   fi
