@@ -8,7 +8,6 @@
 #include <cassert>
 #include <cstdint>
 #include <cstring>
-#include <iterator>
 
 #include "rheo/deformation.hpp"
 #include "rheo/io/atomic_file.hpp"
@@ -113,15 +112,15 @@ void write_state_csv(const std::filesystem::path& path, const Mesh& mesh, const 
   text += parts.bodies.empty() ? "\n" : ",body\n";
   std::size_t body = 0;
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-    fmt::format_to(std::back_inserter(text), "{},{:.17g},{:.17g}", i, mesh.points[i].x, mesh.points[i].y);
+    text += fmt::format("{},{:.17g},{:.17g}", i, mesh.points[i].x, mesh.points[i].y);
     for (const auto& block : {state.u, state.v, state.w_lambda, state.w_mu}) {
-      fmt::format_to(std::back_inserter(text), ",{:.17g},{:.17g}", block[2 * i], block[2 * i + 1]);
+      text += fmt::format(",{:.17g},{:.17g}", block[2 * i], block[2 * i + 1]);
     }
     if (!parts.bodies.empty()) {
       while (body + 1 < parts.bodies.size() &&
              i >= static_cast<std::size_t>(parts.bodies[body + 1].first_node))
         ++body;
-      fmt::format_to(std::back_inserter(text), ",{}", body + 1);
+      text += fmt::format(",{}", body + 1);
     }
     text += '\n';
     if (text.size() > block_bytes) {

@@ -12,6 +12,16 @@
 
 namespace rheo {
 
+namespace {
+
+std::string joined(std::span<const std::string> words, std::string_view separator) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : std::string(separator)) + word;
+  return text;
+}
+
+}  // namespace
+
 bool NumberRule::admits(double value) const {
   if (std::isnan(value)) return false;
   if (std::isinf(value) && !(infinite_allowed && value > 0.0)) return false;
@@ -44,7 +54,7 @@ TableReader::TableReader(const TomlValue& table, std::string file, std::string h
   for (const TomlEntry& entry : table.entries) {
     if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) continue;
     const std::string near = nearest_word(entry.key, keys);
-    const std::string hint = near.empty() ? fmt::format("known here: {}", fmt::join(keys, ", "))
+    const std::string hint = near.empty() ? fmt::format("known here: {}", joined(keys, ", "))
                                           : fmt::format("did you mean {}?", near);
     throw Error(Error::Kind::input,
                 fmt::format("{}:{}: {}{}{} = {}: unknown key; {}", file_, entry.line, header_,
@@ -69,12 +79,12 @@ std::string TableReader::exactly_one(std::span<const std::string> keys) const {
     if (value == nullptr) continue;
     if (found != nullptr) {
       refuse(key, *value,
-             fmt::format("{} is there too; exactly one of {} is allowed", *found, fmt::join(keys, ", ")));
+             fmt::format("{} is there too; exactly one of {} is allowed", *found, joined(keys, ", ")));
     }
     found = &key;
   }
   if (found == nullptr)
-    refuse(fmt::format("{} is missing: exactly one of them is needed", fmt::join(keys, " or ")));
+    refuse(fmt::format("{} is missing: exactly one of them is needed", joined(keys, " or ")));
   return *found;
 }
 
