@@ -62,7 +62,7 @@ void Recorder::record(rheo::Simulation& simulation, std::int64_t) {
   store_.append(record_);
 
   RecordedLoads loads{.t = simulation.time(), .tractions = simulation.active_tractions(), .held = {}};
-  std::vector<int> held = simulation.held_nodes();
+  std::vector<int> held = simulation.held_dofs();
   if (!loads_.empty() && *loads_.back().held == held)
     loads.held = loads_.back().held;
   else

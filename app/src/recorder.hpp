@@ -21,7 +21,8 @@ namespace app {
 struct RecordedLoads {
   double t = 0.0;
   std::vector<rheo::Simulation::ActiveTraction> tractions;
-  std::shared_ptr<const std::vector<int>> held;  // shared by successive outputs that hold the same nodes
+  std::shared_ptr<const std::vector<int>>
+      held;  // 2 node + axis; shared by successive outputs where it is the same
 };
 
 class Recorder : public OutputSink {

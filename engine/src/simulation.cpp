@@ -336,12 +336,10 @@ std::vector<Simulation::ActiveTraction> Simulation::active_tractions() const {
   return impl_->schedule.active_tractions(impl_->stepping.interval_index(), time());
 }
 
-std::vector<int> Simulation::held_nodes() const {
-  std::vector<int> nodes;
-  for (const HeldDof& h : impl_->stepping.interval().held) {
-    if (nodes.empty() || nodes.back() != h.dof / 2) nodes.push_back(h.dof / 2);
-  }
-  return nodes;
+std::vector<int> Simulation::held_dofs() const {
+  std::vector<int> dofs;
+  for (const HeldDof& h : impl_->stepping.interval().held) dofs.push_back(h.dof);
+  return dofs;
 }
 
 }  // namespace rheo

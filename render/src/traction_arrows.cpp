@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <utility>
 
-#include "label_place.hpp"
 #include "theme.hpp"
 #include "ticks.hpp"
 
@@ -171,11 +171,7 @@ void TractionArrows::draw(Canvas& canvas, const Camera& camera, const MeshFrame&
   const float unit = canvas.unit(), width = std::max(1.6f, 2.4f * unit);
   const float apart = 9 * unit;
   std::vector<Point> feet;
-  struct Drawn {
-    Point outer;
-    Point away;  // from the body
-  };
-  std::vector<Drawn> strongest;
+  std::vector<Drawn> sizes;
   std::vector<Stroke> drawn;
   for (std::size_t k = 0; k < frame.arrows.size(); ++k) {
     const Point foot = camera.pixel(frame.arrows[k].at[0], frame.arrows[k].at[1]);
@@ -196,17 +192,18 @@ void TractionArrows::draw(Canvas& canvas, const Camera& camera, const MeshFrame&
                     canvas.palette().force);
     drawn.push_back({tail, tip, std::max(half, width / 2)});
     const double size = std::hypot(frame.arrows[k].vector[0], frame.arrows[k].vector[1]);
-    if (size < (1 - 1e-9) * largest) continue;
-    strongest.push_back({s.presses ? tail : tip, s.presses ? Point{-ux, -uy} : Point{ux, uy}});
+    sizes.push_back({size, s.presses ? tail : tip, s.presses ? Point{-ux, -uy} : Point{ux, uy}});
   }
-  if (strongest.empty() || value_area.width() <= 0) return;
+  if (value_area.width() > 0) write_values(canvas, camera, frame, sizes, std::move(drawn), value_area);
+}
 
-  // The value beyond the middle one of the largest arrows, or near there.
-  const Drawn& chosen = strongest[strongest.size() / 2];
-  const std::string value = with_unit(largest, "Pa");
-  const float text = canvas.text_size(TextSize::small), w = canvas.text_width(TextSize::small, value);
-  const Point wanted{chosen.outer.x + chosen.away.x * (w / 2 + 0.5f * text),
-                     chosen.outer.y + chosen.away.y * 0.8f * text};
+// Each size once, beyond the middle one of the arrows that have it, or near there; the largest first. Where
+// tractions differ from edge to edge, the arrows' lengths tell the others.
+void TractionArrows::write_values(Canvas& canvas, const Camera& camera, const MeshFrame& frame,
+                                  std::vector<Drawn>& sizes, std::vector<Stroke> drawn,
+                                  const Rect& area) const {
+  constexpr int most = 5;
+  const float unit = canvas.unit(), text = canvas.text_size(TextSize::small);
   std::vector<Stroke> outline;
   for (std::size_t e = 0; e < boundary_.size(); e += 2) {
     const auto pixel = [&](int node) {
@@ -216,13 +213,26 @@ void TractionArrows::draw(Canvas& canvas, const Camera& camera, const MeshFrame&
     const Stroke s{pixel(boundary_[e]), pixel(boundary_[e + 1]), theme::outline_width(unit) / 2};
     if (near_picture(canvas, s.from) && near_picture(canvas, s.to)) outline.push_back(s);
   }
-  const float plate_width = w + 0.4f * text, plate_height = 1.1f * text;
-  const auto [x, y] = free_place(wanted, plate_width, plate_height, value_area, drawn, outline);
   Color halo = canvas.palette().paper;
   halo.a = 215;
-  canvas.rect({x - plate_width / 2, y - plate_height / 2, x + plate_width / 2, y + plate_height / 2}, halo,
-              0.25f * text);
-  canvas.text({x, y}, Align::center, TextSize::small, canvas.palette().force, value);
+  std::ranges::stable_sort(sizes, std::greater{}, &Drawn::size);
+  auto alike = sizes.begin();
+  for (int written = 0; alike != sizes.end() && written < most; ++written) {
+    const auto end = std::find_if(alike, sizes.end(),
+                                  [&](const Drawn& one) { return one.size < (1 - 1e-9) * alike->size; });
+    const Drawn& chosen = alike[(end - alike) / 2];
+    const std::string value = with_unit(alike->size, "Pa");
+    alike = end;
+    const float w = canvas.text_width(TextSize::small, value);
+    const Point wanted{chosen.outer.x + chosen.away.x * (w / 2 + 0.5f * text),
+                       chosen.outer.y + chosen.away.y * 0.8f * text};
+    const float plate_width = w + 0.4f * text, plate_height = 1.1f * text;
+    const auto [x, y] = free_place(wanted, plate_width, plate_height, area, drawn, outline);
+    canvas.rect({x - plate_width / 2, y - plate_height / 2, x + plate_width / 2, y + plate_height / 2}, halo,
+                0.25f * text);
+    canvas.text({x, y}, Align::center, TextSize::small, canvas.palette().force, value);
+    drawn.push_back({{x - plate_width / 2, y}, {x + plate_width / 2, y}, plate_height / 2});
+  }
 }
 
 }  // namespace render

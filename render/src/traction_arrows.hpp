@@ -1,4 +1,4 @@
-// Traction arrows on a body, and the value of the largest.
+// Traction arrows on a body, and their values.
 //
 // Units    pixels for what is drawn, [m] and [Pa] for what is given
 // Errors   none; anything that is not finite is left out
@@ -10,6 +10,7 @@
 
 #include "camera.hpp"
 #include "canvas.hpp"
+#include "label_place.hpp"
 #include "render/mesh_picture.hpp"
 
 namespace render {
@@ -21,8 +22,8 @@ class TractionArrows {
  public:
   TractionArrows(std::vector<int> boundary, std::span<const int> triangles, std::vector<double> rest);
 
-  // `value_area`: where the largest traction is written, near its arrow and clear of arrows and body; empty:
-  // nowhere.
+  // `value_area`: where each size of traction (the five largest of many) is written, near an arrow that has
+  // it and clear of arrows and body; empty: nowhere.
   void draw(Canvas& canvas, const Camera& camera, const MeshFrame& frame, double scale, float longest,
             const Rect& value_area);
 
@@ -40,6 +41,12 @@ class TractionArrows {
   static void add_to(Framing& framing, const Canvas& canvas, std::span<const Arrow> arrows, float longest);
 
  private:
+  struct Drawn {
+    double size = 0;    // [Pa]
+    Point outer, away;  // the end that is farther from the body, and the way on from there
+  };
+  void write_values(Canvas& canvas, const Camera& camera, const MeshFrame& frame, std::vector<Drawn>& sizes,
+                    std::vector<Stroke> drawn, const Rect& area) const;
   std::array<double, 2> outward_normal(const MeshFrame& frame, std::size_t k);
   Arrow arrow(const MeshFrame& frame, std::size_t k, double scale);
 

@@ -126,7 +126,7 @@ class Block {
 // The block's picture, with all that a frame has.
 class Picture {
  public:
-  Picture(render::Context& context, const Block& block) : held_(block.simulation().held_nodes()) {
+  Picture(render::Context& context, const Block& block) : held_(block.simulation().held_dofs()) {
     const rheo::Mesh& mesh = block.scene().mesh;
     for (const rheo::Vec2& p : mesh.points) rest_.insert(rest_.end(), {p.x, p.y});
     for (const rheo::Triangle& t : mesh.triangles) triangles_.insert(triangles_.end(), t.begin(), t.end());

@@ -137,7 +137,7 @@ std::vector<double> shown(Simulation& simulation) {
   add(simulation.reaction());
   add(simulation.external_force());
   add(simulation.multipliers());
-  for (const int node : simulation.held_nodes()) numbers.push_back(node);
+  for (const int dof : simulation.held_dofs()) numbers.push_back(dof);
   for (const auto& traction : simulation.active_tractions())
     for (const double x : {static_cast<double>(traction.index), traction.p.x, traction.p.y})
       numbers.push_back(x);

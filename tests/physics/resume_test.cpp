@@ -38,7 +38,7 @@ TEST(Resume, WithTheSameParametersIsTheSameRun) {
     // Alike but for rounding: bases of motions are worked out anew.
     EXPECT_LT(largest_difference(straight.u(), first.u()), 1e-15);
     EXPECT_LT(largest_difference(straight.w_lambda(), first.w_lambda()), 1e-10);
-    EXPECT_EQ(straight.held_nodes(), first.held_nodes());
+    EXPECT_EQ(straight.held_dofs(), first.held_dofs());
   }
 }
 

@@ -20,10 +20,11 @@ struct Body {
   std::vector<int> boundary;   // k x 2, interior on the left
   std::vector<double> positions;
   std::vector<double> scalar;
-  std::vector<int> held;
+  std::vector<int> held;  // 2 node + axis
   std::vector<render::TractionArrow> arrows;
 
   std::size_t nodes() const { return rest.size() / 2; }
+  void hold(int node) { held.insert(held.end(), {2 * node, 2 * node + 1}); }
 
   render::MeshFrame frame(double time = 0) const { return {positions, scalar, held, arrows, time}; }
 
@@ -136,7 +137,7 @@ inline Body pulled_beam(int nx, int ny, double stretch, double traction = 10.0) 
     body.positions[2 * i + 1] = 0.125 + (y - 0.125) * narrow + 0.06 * x * x * (stretch - 1);
     body.scalar[i] = x * (stretch - 1) / 2 * (0.8 + 0.8 * y);
   }
-  for (int j = 0; j < ny; ++j) body.held.push_back(j * nx);
+  for (int j = 0; j < ny; ++j) body.hold(j * nx);
   for (std::size_t e = 0; e + 1 < body.boundary.size(); e += 2) {
     const auto a = static_cast<std::size_t>(body.boundary[e]),
                b = static_cast<std::size_t>(body.boundary[e + 1]);

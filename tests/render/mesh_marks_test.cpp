@@ -15,7 +15,7 @@ TEST_F(MeshPictures, HatchesStandOutsideOfHeldEdgesOnly) {
   Body body = bodies::rectangle(2, 1, 5, 3);
   const Image without = draw(body.layout(), body.frame());
   const Box box = drawn(without);
-  for (int j = 0; j < 3; ++j) body.held.push_back(j * 5);
+  for (int j = 0; j < 3; ++j) body.hold(j * 5);
   const Box hatches = support::find_difference(without, draw(body.layout(), body.frame()));
   EXPECT_GT(hatches.count, 50);
   EXPECT_LE(hatches.x1, box.x0 + 2) << "outside, but for the foot under the outline";
@@ -27,10 +27,42 @@ TEST_F(MeshPictures, HatchesStandOutsideOfHeldEdgesOnly) {
 TEST_F(MeshPictures, ASingleHeldNodeIsADotAndNoHatch) {
   Body body = bodies::rectangle(2, 1, 5, 3);
   const Image without = draw(body.layout(), body.frame());
-  body.held = {0, 7};  // a corner, and one inside
+  for (const int node : {0, 7}) body.hold(node);  // a corner, and one inside
   const Box dots = support::find_difference(without, draw(body.layout(), body.frame()));
   EXPECT_GT(dots.count, 10);
   EXPECT_LT(dots.count, 100);
+}
+
+// The left side held along both axes, along x and along y: three marks, and rollers stand on a ground, a line
+// along the whole side.
+TEST_F(MeshPictures, RollersAreToldFromWhatIsFixedAndFromGuides) {
+  Body fixed = bodies::rectangle(2, 1, 5, 9);
+  Body rolls = fixed, guided = fixed;
+  const Image without = draw(fixed.layout(), fixed.frame());
+  for (int j = 0; j < 9; ++j) {
+    fixed.hold(5 * j);
+    rolls.held.push_back(2 * 5 * j);
+    guided.held.push_back(2 * 5 * j + 1);
+  }
+  const Box box = drawn(without);
+  const auto longest_column = [&](const Body& body) {
+    const Image with = draw(body.layout(), body.frame());
+    int longest = 0;
+    for (int x = box.x0 - 16; x < box.x0 - 2; ++x) {
+      int inked = 0;
+      for (int y = box.y0; y <= box.y1; ++y)
+        if (support::distance(at(with, x, y), at(without, x, y)) > 40) ++inked;
+      longest = std::max(longest, inked);
+    }
+    return static_cast<double>(longest) / (box.y1 - box.y0);
+  };
+  EXPECT_GT(longest_column(rolls), 0.95);
+  EXPECT_LT(longest_column(fixed), 0.6);
+  EXPECT_LT(longest_column(guided), 0.6);
+  EXPECT_GT(
+      support::find_difference(draw(fixed.layout(), fixed.frame()), draw(guided.layout(), guided.frame()))
+          .count,
+      100);
 }
 
 // The left edge in a few parts and in parts shorter than the distance of the strokes.
@@ -39,7 +71,7 @@ TEST_F(MeshPictures, HatchesDoNotDependOnTheDivisionOfTheHeldEdge) {
   for (const int parts : {1, 2, 100}) {
     Body body = bodies::rectangle(2, 1, 2, parts + 1);
     const Image without = draw(body.layout(), body.frame());
-    for (int j = 0; j <= parts; ++j) body.held.push_back(2 * j);
+    for (int j = 0; j <= parts; ++j) body.hold(2 * j);
     const Image with = draw(body.layout(), body.frame());
     const int edge = drawn(without).x0;
     inked.push_back(support::find(with, [&](int x, int y, const Pixel&) {
@@ -55,7 +87,8 @@ TEST_F(MeshPictures, HatchesDoNotDependOnTheDivisionOfTheHeldEdge) {
 TEST_F(MeshPictures, AShortHeldEdgeHasAHatch) {
   Body body = bodies::rectangle(2, 1, 2, 101);
   const Image without = draw(body.layout(), body.frame());
-  body.held = {100, 102};  // one edge of about three pixels in the middle of the left side
+  // One edge of about three pixels in the middle of the left side.
+  for (const int node : {100, 102}) body.hold(node);
   const Box hatch = support::find_difference(without, draw(body.layout(), body.frame()), 40);
   EXPECT_GT(hatch.count, 5);
   EXPECT_LT(hatch.count, 40) << "one stroke";

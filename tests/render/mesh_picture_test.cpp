@@ -159,7 +159,7 @@ TEST_F(MeshPictures, PositionsThatAreNotFiniteDropTheirTrianglesOnly) {
   const render::MeshLayout layout = coloured(body);
   const Image whole = draw(layout, body.frame());
   body.positions[4] = nan;  // the lower right node
-  body.held = {0, 1, 2};
+  for (const int node : {0, 1, 2}) body.hold(node);
   body.arrows = {
       {{nan, 0.5}, {10, 0}}, {{2, 0.5}, {nan, 0}}, {{2, 0.5}, {std::numeric_limits<double>::infinity(), 0}}};
   const Image image = draw(layout, body.frame(nan));
@@ -200,8 +200,7 @@ TEST_F(MeshPictures, AnEmptyMeshIsAnEmptyPicture) {
 
 TEST_F(MeshPictures, BoundaryOfManyEdgesIsDrawnWhole) {
   Body body = bodies::rectangle(40000, 20000, 40001, 2);  // 80002 boundary edges
-  body.held.resize(body.nodes());
-  for (std::size_t i = 0; i < body.nodes(); ++i) body.held[i] = static_cast<int>(i);
+  for (std::size_t i = 0; i < body.nodes(); ++i) body.hold(static_cast<int>(i));
   const Image image = draw(body.layout(), body.frame());
   const Box box = drawn(image);
   for (const int x : {box.x0 + 30, (box.x0 + box.x1) / 2, box.x1 - 30}) {

@@ -79,7 +79,7 @@ void load(Body& body, std::array<double, 4> box, std::array<double, 2> vector) {
 
 void hold(Body& body, double highest) {
   for (std::size_t i = 0; i < body.nodes(); ++i)
-    if (body.rest[2 * i + 1] <= highest) body.held.push_back(static_cast<int>(i));
+    if (body.rest[2 * i + 1] <= highest) body.hold(static_cast<int>(i));
 }
 
 // A tall block on a table, sheared by a traction along its top, which tilts.
@@ -109,7 +109,7 @@ std::vector<Scene> scenes() {
   load(pressed, {0, 0.0299, 0.1, 0.031}, {300, -1.2e6});
   all.push_back({"pressed slab", pressed, {0, 1}, evenly(2777.7, 8)});
   Body disk = bodies::disk(0.03, 8);
-  for (const int node : {169, 170, 171, 192, 193, 194}) disk.held.push_back(node);
+  for (const int node : {169, 170, 171, 192, 193, 194}) disk.hold(node);
   all.push_back({"disk", disk, {0, 123456}, evenly(4, 9)});
   Body fish = bodies::disk(0.1, 8);
   for (std::size_t i = 0; i < fish.nodes(); ++i) fish.rest[2 * i] *= 0.25;

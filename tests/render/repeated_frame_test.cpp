@@ -8,7 +8,7 @@ namespace {
 
 Body held_and_pulled_beam() {
   Body body = bodies::pulled_beam(9, 4, 2);
-  body.held = {0, 9, 18, 27};
+  for (const int node : {0, 9, 18, 27}) body.hold(node);
   body.arrows = {{.at = {body.positions[16], body.positions[17]}, .vector = {3.0, 1.0}}};
   return body;
 }

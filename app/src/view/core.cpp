@@ -338,7 +338,7 @@ void Core::show(Display& display) {
     find_scalars(simulation, rheo::ColorBy::w_lambda, branch, display.w_lambda);
     find_scalars(simulation, rheo::ColorBy::w_mu, branch, display.w_mu);
   }
-  display.held = simulation.held_nodes();
+  display.held = simulation.held_dofs();
   display.tractions = simulation.active_tractions();
   display.hand.hold = hold_;
   display.hand.edges = edges_;

@@ -33,7 +33,7 @@ struct Display {
   std::int64_t ticks = 0;
 
   std::vector<double> positions, velocities, w_lambda, w_mu, speed;
-  std::vector<int> held;
+  std::vector<int> held;  // 2 node + axis
   std::vector<rheo::Simulation::ActiveTraction> tractions;
   HandDisplay hand;
 

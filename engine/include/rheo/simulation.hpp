@@ -195,14 +195,14 @@ class Simulation {
   std::span<const double> multipliers();
   ProbeReading read(const Probe& probe);
 
-  // What acts now, for pictures: indices into scene().tractions with their value [Pa], and nodes held in x
-  // and/or y by fix or move.
+  // What acts now, for pictures: indices into scene().tractions with their value [Pa], and the degrees of
+  // freedom, 2 node + axis, that a fix or a move holds, in ascending order.
   struct ActiveTraction {
     int index = 0;
     Vec2 p;
   };
   std::vector<ActiveTraction> active_tractions() const;
-  std::vector<int> held_nodes() const;
+  std::vector<int> held_dofs() const;
 
   const Counters& counters() const;
 

@@ -1,5 +1,5 @@
-// fmt's own code, for the whole engine. It is part of the library, so that a consumer neither needs fmt nor collides with
-// the one it has: the symbols are weak, as of all inline functions.
+// fmt's own code, for the whole engine. It is part of the library, so that a consumer neither needs fmt nor
+// collides with the one it has: the symbols are weak, as of all inline functions.
 #include <fmt/format.h>
 
 namespace {

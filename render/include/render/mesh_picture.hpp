@@ -53,7 +53,7 @@ struct TractionArrow {
 struct MeshFrame {
   std::span<const double> positions;  // n x 2, deformed
   std::span<const double> scalar;     // n, or empty
-  std::span<const int> held;  // nodes that a constraint holds: hatched along boundary edges held at both ends
+  std::span<const int> held;  // degrees of freedom 2 node + axis: marked along boundary edges held at both ends
   std::span<const TractionArrow> arrows;  // one per loaded edge
   double time = 0.0;
   std::string_view caption{};  // beside the time on a sheet, cut short where there is no room
