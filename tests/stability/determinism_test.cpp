@@ -28,6 +28,12 @@ namespace {
 
 using Hashes = std::vector<std::uint64_t>;
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int across = 6, up = 4;
+#else
+constexpr int across = 11, up = 7;
+#endif
+
 Hashes hashes_of(const Scene& scene, const SimulationOptions& options) {
   Simulation simulation(scene, options);
   Hashes all;
@@ -108,7 +114,7 @@ std::vector<Setting> settings(int nx, int ny) {
 }
 
 TEST(Determinism, TheSameSceneGivesTheSameBitsAgain) {
-  for (const Setting& each : settings(11, 7)) {
+  for (const Setting& each : settings(across, up)) {
     const Hashes first = hashes_of(each.scene, each.options);
     EXPECT_EQ(hashes_of(each.scene, each.options), first) << each.name;
     EXPECT_NE(first.front(), first.back()) << each.name << ": nothing moved";
@@ -137,7 +143,7 @@ TEST(Determinism, ThreadsDoNotChangeABit) {
 
 // No simulation sees another one.
 TEST(Determinism, SimulationsBesideEachOtherDoNotChangeABit) {
-  std::vector<Setting> all = settings(13, 7);
+  std::vector<Setting> all = settings(across + 2, up);
   std::vector<Hashes> alone(all.size()), together(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) alone[i] = hashes_of(all[i].scene, all[i].options);
   std::vector<std::thread> threads;
@@ -152,7 +158,7 @@ TEST(Determinism, SimulationsBesideEachOtherDoNotChangeABit) {
 
 // Two that go on from one saved state are alike to the bit.
 TEST(Determinism, GoingOnTwiceFromOneStateGivesTheSameBits) {
-  for (const Setting& each : settings(11, 7)) {
+  for (const Setting& each : settings(across, up)) {
     Simulation first(each.scene, each.options);
     ASSERT_FALSE(first.advance(0.12)) << each.name;
     const SavedState saved = first.save();

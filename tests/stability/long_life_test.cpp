@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "long_life_run.hpp"
+#include "stability/runs/long_life_run.hpp"
 
 namespace rheo::test {
 namespace {

@@ -8,8 +8,8 @@
 #include "rheo/error.hpp"
 #include "rheo/simulation.hpp"
 #include "rheo/stability.hpp"
+#include "stability/runs/true_limit.hpp"
 #include "support/scenes.hpp"
-#include "true_limit.hpp"
 
 namespace rheo::test {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "stress_run.hpp"
+#include "stability/runs/stress_run.hpp"
 
 namespace rheo::test {
 namespace {

@@ -14,7 +14,7 @@
 #include <string>
 #include <string_view>
 
-#include "stability/long_life_run.hpp"
+#include "stability/runs/long_life_run.hpp"
 
 namespace {
 

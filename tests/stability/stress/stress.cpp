@@ -16,7 +16,7 @@
 #include <string_view>
 #include <vector>
 
-#include "stability/stress_run.hpp"
+#include "stability/runs/stress_run.hpp"
 #ifdef RHEO_STRESS_MAP
 #include "render/context.hpp"
 #include "render/plot.hpp"

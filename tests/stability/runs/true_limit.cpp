@@ -1,4 +1,4 @@
-#include "true_limit.hpp"
+#include "stability/runs/true_limit.hpp"
 
 #include <Eigen/Dense>
 #include <algorithm>

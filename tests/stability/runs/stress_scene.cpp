@@ -1,4 +1,4 @@
-#include "stress_scene.hpp"
+#include "stability/runs/stress_scene.hpp"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "stress_run.hpp"
+#include "stability/runs/stress_run.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "long_life_run.hpp"
+#include "stability/runs/long_life_run.hpp"
 
 #include <unistd.h>
 

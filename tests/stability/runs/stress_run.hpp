@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "stress_scene.hpp"
-#include "true_limit.hpp"
+#include "stability/runs/stress_scene.hpp"
+#include "stability/runs/true_limit.hpp"
 
 namespace rheo::test {
 
