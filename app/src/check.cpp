@@ -173,8 +173,12 @@ void print_steps(const rheo::Simulation& simulation, rheo::IntegratorKind integr
   row("stable rk4", "{}", stable_text(rheo::stable_step(spectrum, rheo::IntegratorKind::rk4)));
   if (const std::string advice = stiffness_advice(simulation.scene(), spectrum); !advice.empty())
     row("advice", "{}", advice);
-  row("stable euler", "{}{}", stable_text(euler_limit.step),
-      euler_limit.bound && euler_limit.step > 0.0 ? " at least (a safe bound)" : "");
+  if (euler_limit.bound && euler_limit.step <= 0.0)
+    row("stable euler",
+        "none that can be promised: a material that does not relax, in a body too large to tell");
+  else
+    row("stable euler", "{}{}", stable_text(euler_limit.step),
+        euler_limit.bound ? " at least (a safe bound)" : "");
   if (plan) row("accuracy", "{}", plan_text(*plan));
   row("integrator", "{}", name_of(integrator));
   row("kernel", "{}", simulation.kernel());

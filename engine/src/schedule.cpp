@@ -162,7 +162,10 @@ void Schedule::make_spectrum() {
   const bool parallel = s.several_materials || model_.is_parallel();
   if (s.several_materials) {
     std::vector<Material> materials;
-    for (const Patch& patch : model_.patches) materials.push_back(patch.material);
+    for (const Patch& patch : model_.patches) {
+      materials.push_back(patch.material);
+      s.materials.push_back({relaxations_of(patch.material), patch.material.viscous});
+    }
     for (const SharedRelaxation& each : relaxations_of(materials)) {
       Relaxation largest{each.rate, {}};
       for (const Moduli& moduli : each.moduli) {

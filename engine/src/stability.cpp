@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "material_modes.hpp"
+
 namespace rheo {
 namespace {
 
@@ -254,14 +256,13 @@ class ParallelModes {
   double best_ratio_ = -1.0, best_decline_ = 0.0, span_ = 0.0;  // of the sample that limits; -1: none
 };
 
-// The modes of several materials, by the shares that rates may have in them (stability.hpp). For a given s
-// the sum of c_k / (s + r_k) is a point in the hull of points on an arc of a circle, in the order of the
-// rates: what is on the hull's edge, where the limiting s are, has two neighbouring rates or the first and
-// the last.
+// The modes of several materials under RK4, by the shares that rates may have in them (stability.hpp). For a
+// given s the sum of c_k / (s + r_k) is a point in the hull of points on an arc of a circle, in the order of
+// the rates: what is on the hull's edge, where the limiting s are, has two neighbouring rates or the first
+// and the last.
 class FreeModes {
  public:
-  FreeModes(const Spectrum& spectrum, IntegratorKind integrator)
-      : spectrum_(spectrum), integrator_(integrator) {
+  explicit FreeModes(const Spectrum& spectrum) : spectrum_(spectrum) {
     for (const Relaxation& each : spectrum.relaxations) rates_.push_back(each.rate);
   }
 
@@ -279,8 +280,8 @@ class FreeModes {
 
  private:
   void take(std::complex<double> s) {
-    if (integrator_ == IntegratorKind::rk4 && std::abs(s) * step_ < rk4_inner_radius) return;
-    step_ = std::min(step_, stable_step_of(s, integrator_));
+    if (std::abs(s) * step_ < rk4_inner_radius) return;
+    step_ = std::min(step_, stable_step_of(s, IntegratorKind::rk4));
   }
 
   void pair(double p, double q) {
@@ -293,8 +294,7 @@ class FreeModes {
       if (octave > 0 && omega < 0.02 * fastest) break;
       for (int k = 0; k <= (viscous_max > 0.0 ? dampings : 0); ++k) {
         const double d = viscous_max * k / dampings;
-        if (integrator_ == IntegratorKind::rk4 && (std::max({p, q, d}) + omega) * step_ < rk4_inner_radius)
-          continue;
+        if ((std::max({p, q, d}) + omega) * step_ < rk4_inner_radius) continue;
         for (int i = 0; i <= last; ++i) mode(omega, static_cast<double>(i) / shares, p, q, d);
       }
     }
@@ -318,7 +318,6 @@ class FreeModes {
   }
 
   const Spectrum& spectrum_;
-  IntegratorKind integrator_;
   std::vector<double> rates_;
   double step_ = infinite;
 };
@@ -339,8 +338,8 @@ double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
   const double p = spectrum.lambda_on ? spectrum.lambda_rate : 0.0;
   const double q = spectrum.mu_on ? spectrum.mu_rate : 0.0;
   if (spectrum.several_materials) {
-    // (What lies between the samples moves the limit by less than the factor.)
-    step = 0.995 * FreeModes(spectrum, integrator).limit();
+    // (What lies between the samples moves the limit by less than the factors.)
+    step = rk4 ? 0.995 * FreeModes(spectrum).limit() : 0.98 * euler_step_of_materials(spectrum);
   } else if (parallel) {
     step = ParallelModes(spectrum, integrator).limit();
   } else {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -57,11 +58,18 @@ TEST(WholeMaterialStep, IsNeverAboveTheTruthAndNearIt) {
   std::printf("RK4, predicted over true: lowest %.4f, mean %.4f\n", lowest, sum / scenes);
 }
 
+bool relaxes_in_shear(const Material& material) {
+  const std::vector<Relaxation> all = relaxations_of(material);
+  return material.viscous.mu > 0.0 ||
+         std::ranges::any_of(all, [](const Relaxation& r) { return r.rate > 0.0 && r.moduli.mu > 0.0; });
+}
+
 // By the bound alone, as on large scenes, and with the eigenvalues, as on these.
 TEST(WholeMaterialStep, OfSeveralMaterialsIsNeverAboveTheTruth) {
   std::mt19937 random(22);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
-  double lowest = 1.0, lowest_bound = 1.0;
+  double lowest = 1.0, lowest_bound = 1.0, lowest_euler = 1.0;
+  int relaxing = 0;
   for (int k = 0; k < several_materials; ++k) {
     Scene scene;
     scene.mesh = rectangle({1.0, 0.2 + unit(random)}, 2 + k % 2, 2 + k % 2, Diagonal::alternating);
@@ -78,7 +86,8 @@ TEST(WholeMaterialStep, OfSeveralMaterialsIsNeverAboveTheTruth) {
     scene.time.duration = 1e-11;
     scene.time.step = 1e-12;
     const Simulation probe(scene, {.allow_unstable = true});
-    const TrueLimit limit = true_limit(scene, IntegratorKind::rk4);
+    const TrueSpectrum true_spectrum(scene);
+    const TrueLimit limit = true_spectrum.limit(IntegratorKind::rk4);
     EXPECT_TRUE(limit.determined()) << k;
     const double truth = limit.high;
     const double predicted = stable_step(probe.spectrum(), IntegratorKind::rk4);
@@ -93,8 +102,18 @@ TEST(WholeMaterialStep, OfSeveralMaterialsIsNeverAboveTheTruth) {
     }
     lowest = std::min(lowest, predicted / truth);
     lowest_bound = std::min(lowest_bound, bound / truth);
+    const TrueLimit euler_truth = true_spectrum.limit(IntegratorKind::euler);
+    if (!euler_truth.determined()) continue;
+    const double euler_bound = stable_step(large, IntegratorKind::euler);
+    EXPECT_LE(euler_bound, euler_truth.high * (1 + 1e-9)) << k;
+    if (!relaxes_in_shear(scene.material) || !relaxes_in_shear(scene.regions[0].material)) continue;
+    ++relaxing;
+    EXPECT_GT(euler_bound, 0.02 * euler_truth.high) << k;
+    lowest_euler = std::min(lowest_euler, euler_bound / euler_truth.high);
   }
-  std::printf("RK4, lowest over true: predicted %.4f, bound %.4f\n", lowest, lowest_bound);
+  std::printf("lowest over true: RK4 predicted %.4f, bound %.4f; Euler's bound %.4f\n", lowest, lowest_bound,
+              lowest_euler);
+  EXPECT_GE(relaxing, several_materials / 4);
 }
 
 }  // namespace

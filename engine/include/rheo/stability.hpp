@@ -46,6 +46,12 @@ struct Spectrum {
   // More than one: any share of the springs may be that of any rate in a mode; the moduli below are then the
   // largest of the materials.
   bool several_materials = false;
+  // Then what each of them has in every mode: springs by their rate, and the viscous part.
+  struct Part {
+    std::vector<Relaxation> relaxations;
+    Moduli viscous;
+  };
+  std::vector<Part> materials;
   // Beyond one branch, else empty and 0: all springs by their rate, and the viscous part with an upper bound
   // of the largest eigenvalue of M^-1 (viscous_lambda J_lambda + viscous_mu J_mu) [1/s].
   std::vector<Relaxation> relaxations;

@@ -1,8 +1,9 @@
 // Bodies pulled back and forth for ever: drift, speed and memory tenth by tenth of the run.
 //
-//   rheo_long_life [--share S]      S: of the whole, 1e8 steps of the beam, 1e6 of 10k triangles, 1e5 frames
-//   of
-//                                   exponential and implicit each; default 1
+//   rheo_long_life [--share S] [--only TEXT]
+//
+// S: of the whole, 1e8 steps of the beam, 1e6 of 10k triangles, 1e5 frames of exponential and implicit each;
+// default 1. TEXT: only runs with it in their name.
 
 #include <fmt/format.h>
 
@@ -52,32 +53,47 @@ bool run(const std::string& name, LongLife life) {
   return fine;
 }
 
-double share(int argc, char** argv) {
-  if (argc == 1) return 1.0;
-  if (argc != 3 || std::string_view(argv[1]) != "--share")
-    throw std::invalid_argument("only --share S is known");
-  return std::stod(argv[2]);
+struct Wanted {
+  double share = 1.0;
+  std::string only;
+};
+
+Wanted wanted(int argc, char** argv) {
+  Wanted all;
+  for (int k = 1; k < argc; k += 2) {
+    const std::string_view option = argv[k];
+    if (k + 1 == argc || (option != "--share" && option != "--only"))
+      throw std::invalid_argument("only --share S and --only TEXT are known");
+    if (option == "--share")
+      all.share = std::stod(argv[k + 1]);
+    else
+      all.only = argv[k + 1];
+  }
+  return all;
 }
 
-int run_all(double share) {
+int run_all(const Wanted& wanted) {
   using rheo::test::long_lived_beam;
   using rheo::test::long_lived_block;
   bool fine = true;
-  const auto with_steps = [&](LongLife life, double steps) {
-    life.periods = periods_for(life, share * steps);
-    return life;
+  int runs = 0;
+  const auto run_if_wanted = [&](const std::string& name, LongLife life, double steps) {
+    if (name.find(wanted.only) == std::string::npos) return;
+    life.periods = periods_for(life, wanted.share * steps);
+    fine &= run(name, life);
+    ++runs;
   };
-  fine &= run("beam, rk4", with_steps(long_lived_beam(IntegratorKind::rk4, 10), 1e8));
+  run_if_wanted("beam, rk4", long_lived_beam(IntegratorKind::rk4, 10), 1e8);
   for (const auto& [kind, name] :
        {std::pair{IntegratorKind::exponential, "exponential"}, {IntegratorKind::implicit, "implicit"}}) {
     // A step a tick: frames.
-    fine &= run(fmt::format("beam, {}", name), with_steps(long_lived_beam(kind, 10), 1e5));
-    fine &= run(fmt::format("block of 80 triangles, {}", name),
-                with_steps(long_lived_block(kind, 11, 5, 10), 1e5));
+    run_if_wanted(fmt::format("beam, {}", name), long_lived_beam(kind, 10), 1e5);
+    run_if_wanted(fmt::format("block of 80 triangles, {}", name), long_lived_block(kind, 11, 5, 10), 1e5);
   }
   LongLife large = long_lived_block(IntegratorKind::rk4, 101, 51, 10);
   large.ticks_a_period = 20;
-  fine &= run("block of 10,000 triangles, rk4", with_steps(large, 1e6));
+  run_if_wanted("block of 10,000 triangles, rk4", large, 1e6);
+  if (runs == 0) throw std::invalid_argument(fmt::format("no run has \"{}\" in its name", wanted.only));
   return fine ? 0 : 1;
 }
 
@@ -85,7 +101,7 @@ int run_all(double share) {
 
 int main(int argc, char** argv) {
   try {
-    return run_all(share(argc, argv));
+    return run_all(wanted(argc, argv));
   } catch (const std::exception& error) {
     fmt::print(stderr, "rheo_long_life: {}\n", error.what());
     return 2;
