@@ -57,8 +57,10 @@ struct Texts {
        plot = false;
 };
 
+// Of a run to its end, and of the window, which has none and keeps all its books.
 void add_time_options(CLI::App& command, Texts& texts) {
   const char* group = "Time (default: as the scene says)";
+  const bool has_end = command.get_name() != "view";
   command
       .add_option("--integrator", texts.integrator,
                   "rk4, euler, exponential or implicit (stiff bodies); a scene's default is\nrk4, or what "
@@ -78,18 +80,22 @@ void add_time_options(CLI::App& command, Texts& texts) {
                   "default 1e-10")
       ->type_name("NUMBER")
       ->group(group);
-  command
-      .add_option("--accuracy", texts.accuracy,
-                  "error at the outputs, 1e-13 to 0.1: step or tolerance, and where none is\n"
-                  "named the integrator too, are chosen for it; see check")
-      ->type_name("NUMBER")
-      ->group(group);
-  command.add_option("--duration", texts.duration, "seconds to simulate")->type_name("NUMBER")->group(group);
-  command
-      .add_option("--frame-rate", texts.frame_rate,
-                  "outputs per second of simulated time; a scene's default is 60")
-      ->type_name("NUMBER")
-      ->group(group);
+  if (has_end) {
+    command
+        .add_option("--accuracy", texts.accuracy,
+                    "error at the outputs, 1e-13 to 0.1: step or tolerance, and where none is\n"
+                    "named the integrator too, are chosen for it; see check")
+        ->type_name("NUMBER")
+        ->group(group);
+    command.add_option("--duration", texts.duration, "seconds to simulate")
+        ->type_name("NUMBER")
+        ->group(group);
+    command
+        .add_option("--frame-rate", texts.frame_rate,
+                    "outputs per second of simulated time; a scene's default is 60")
+        ->type_name("NUMBER")
+        ->group(group);
+  }
   command
       .add_flag("--allow-unstable", texts.allow_unstable,
                 "run a step beyond the stable limit instead of refusing it")
@@ -101,6 +107,7 @@ void add_time_options(CLI::App& command, Texts& texts) {
                   "implicit) or auto, the default: the fastest that the scene allows")
       ->type_name("NAME")
       ->group(group);
+  if (!has_end) return;
   command
       .add_flag("--no-energies", texts.no_energies,
                 "leave history.csv's columns dissipated and work empty; steps cost less")

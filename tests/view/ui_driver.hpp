@@ -40,9 +40,19 @@ inline std::unique_ptr<render::Context> open_or_null() {
 class Driver {
  public:
   Driver(render::Context& context, rheo::Scene scene, fs::path folder, app::view::PictureStyle style = {})
-      : physics(std::move(scene), app::view::CoreSettings{}),
-        ui(context, physics, settings(std::move(folder), style)) {
+      : Driver(context, std::move(scene), settings(std::move(folder), style)) {}
+  Driver(render::Context& context, rheo::Scene scene, app::view::UiSettings settings)
+      : physics(std::move(scene), app::view::CoreSettings{}), ui(context, physics, std::move(settings)) {
     frames(3);
+  }
+
+  static app::view::UiSettings settings(fs::path folder, const app::view::PictureStyle& style) {
+    app::view::UiSettings s;
+    s.scene = fs::path(RHEO_SOURCE_DIR) / "app" / "scenes" / "beam.toml";
+    s.folder = std::move(folder);
+    s.style = style;
+    s.read = [](const fs::path& file) { return rheo::read_scene(file); };
+    return s;
   }
 
   void frame() {
@@ -104,7 +114,7 @@ class Driver {
     return std::ranges::any_of(
         ui.labels(), [&](const std::string& label) { return label.find(part) != std::string::npos; });
   }
-  const app::view::Ui::Widget* widget(const std::string& name) const {
+  const app::view::Widgets::Seen* widget(const std::string& name) const {
     for (const auto& widget : ui.widgets())
       if (widget.name == name) return &widget;
     return nullptr;
@@ -112,23 +122,13 @@ class Driver {
   bool click_widget(const std::string& name) {
     const auto* found = widget(name);
     if (found == nullptr) return false;
-    click((found->x0 + std::min(found->x1, found->x0 + 24)) / 2, (found->y0 + found->y1) / 2);
+    click(found->x0 + std::min(12.0f, (found->x1 - found->x0) / 2), (found->y0 + found->y1) / 2);
     return true;
   }
 
   app::view::Physics physics;
   app::view::Input input;
   app::view::Ui ui;
-
- private:
-  static app::view::UiSettings settings(fs::path folder, const app::view::PictureStyle& style) {
-    app::view::UiSettings s;
-    s.scene = fs::path(RHEO_SOURCE_DIR) / "app" / "scenes" / "beam.toml";
-    s.folder = std::move(folder);
-    s.style = style;
-    s.read = [](const fs::path& file) { return rheo::read_scene(file); };
-    return s;
-  }
 };
 
 }  // namespace view_tests

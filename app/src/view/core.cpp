@@ -12,10 +12,11 @@
 namespace app::view {
 namespace {
 
-constexpr int handle_count = 4;      // a hand that lets go takes a tick until it is idle
-constexpr int record_room = 400000;  // keys of a session: minutes of dragging
-constexpr double look_every = 0.1;   // [s]
-constexpr double rest_after = 0.5;   // [s]
+constexpr int handle_count = 4;        // a hand that lets go takes a tick until it is idle
+constexpr int record_room = 400000;    // keys of a session: minutes of dragging
+constexpr double sample_every = 0.01;  // [s] of the plots, at first
+constexpr double look_every = 0.1;     // [s]
+constexpr double rest_after = 0.5;     // [s]
 // What is slower than this cannot be seen: a colour step is 4e-3 of the largest w, a pixel 1e-3 of the size.
 constexpr double still_place = 1e-6;  // of the body's size, in look_every
 constexpr double still_w = 3e-5;      // of the largest w, likewise
@@ -79,6 +80,10 @@ double load_of(const rheo::Simulation& simulation, double rate) {
          seconds_a_triangle;
 }
 
+double balance_of(const rheo::Energies& e) {
+  return e.kinetic + e.stored + e.dissipated - e.work;
+}
+
 // Settings that a run to its end has and a window does without.
 rheo::Scene for_hands(rheo::Scene scene) {
   scene.time.accuracy = 0.0;
@@ -88,6 +93,10 @@ rheo::Scene for_hands(rheo::Scene scene) {
 }
 
 }  // namespace
+
+double drift_of(const Display& display) {
+  return balance_of(display.energies) - display.energy_start;
+}
 
 Core::Core(rheo::Scene scene, const CoreSettings& settings) : settings_(settings) {
   const double accuracy = scene.time.accuracy;
@@ -158,8 +167,10 @@ void Core::begin_again() {
   largest_w_ = 0.0;
   last_event_ = last_event_of(*scene_);
   size_ = size_of(scene_->mesh);
-  const rheo::Energies now = live_->simulation().energies();
-  energy_start_ = now.kinetic + now.stored + now.dissipated - now.work;
+  energy_start_ = balance_of(live_->simulation().energies());
+  if (live_->ticks() > 0) return;
+  history_.begin(std::llround(sample_every * settings_.rate));
+  sample();
 }
 
 void Core::say(std::string message) {
@@ -292,7 +303,21 @@ bool Core::tick() {
     return false;
   }
   watch_for_rest();
+  sample();
   return true;
+}
+
+void Core::sample() {
+  if (!history_.is_due(live_->ticks())) return;
+  const rheo::Simulation& simulation = live_->simulation();
+  const rheo::Energies e = simulation.energies();
+  rheo::HandReading hand;
+  if (!edges_.empty()) hand = live_->read(handle_);
+  if (hold_ == Hold::nothing) hand.force = {};
+  history_.add({live_->time(), norm(simulation.w_lambda()), norm(simulation.w_mu()), e.kinetic, e.stored,
+                e.dissipated, e.work, balance_of(e) - energy_start_,
+                std::hypot(hand.displacement.x, hand.displacement.y),
+                std::hypot(hand.force.x, hand.force.y)});
 }
 
 void Core::watch_for_rest() {
@@ -349,6 +374,7 @@ void Core::show(Display& display) {
     if (hold_ != Hold::nothing) display.hand.force = reading.force;
     if (hold_ == Hold::push) display.hand.traction = live_->traction(handle_);
   }
+  display.history.follow(history_);
   display.energies = simulation.energies();
   display.energy_start = energy_start_;
   display.steps = steps_before_ + simulation.counters().steps;

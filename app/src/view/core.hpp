@@ -73,6 +73,7 @@ class Core {
   void tell_of_accuracy(double accuracy);
   void refuse(const std::string& why);
   void follow_target();
+  void sample();
 
   CoreSettings settings_;
   std::shared_ptr<const rheo::Scene> scene_;
@@ -88,6 +89,7 @@ class Core {
   rheo::Vec2 target_, at_, velocity_, acceleration_;
   double follow_ = 0.02;  // [s] of simulated time
 
+  History history_;
   double energy_start_ = 0.0;  // kinetic + stored + dissipated - work
   double last_event_ = 0.0, size_ = 1.0;
   bool still_ = false;

@@ -12,6 +12,7 @@
 
 #include "rheo/deformation.hpp"
 #include "rheo/live.hpp"
+#include "view/history.hpp"
 
 namespace app::view {
 
@@ -41,6 +42,7 @@ struct Display {
   double energy_start = 0.0;  // their balance where the parameters of now began
   double w_lambda_norm = 0.0, w_mu_norm = 0.0;
   rheo::LinearityReport linearity;
+  History history;
 
   std::int64_t steps = 0;     // since the program began
   double busy_seconds = 0.0;  // of the physics, since the program began
@@ -55,5 +57,8 @@ struct Display {
   std::string message;            // the last one, empty: none
   std::int64_t message_number = 0;
 };
+
+// (kinetic + stored + dissipated - work) less what it was at the start. [J]
+double drift_of(const Display& display);
 
 }  // namespace app::view

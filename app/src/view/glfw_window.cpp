@@ -13,8 +13,8 @@ namespace {
 
 constexpr int least_width = 300, least_height = 200;
 
-std::deque<GlfwWindow::Event>& events_of(GLFWwindow* window) {
-  return *static_cast<std::deque<GlfwWindow::Event>*>(glfw().GetWindowUserPointer(window));
+InputQueue& events_of(GLFWwindow* window) {
+  return *static_cast<InputQueue*>(glfw().GetWindowUserPointer(window));
 }
 
 std::string last_error() {
@@ -87,39 +87,39 @@ void GlfwWindow::install_callbacks() {
     int ww = 1, wh = 1, fw = 1, fh = 1;
     glfw().GetWindowSize(w, &ww, &wh);
     glfw().GetFramebufferSize(w, &fw, &fh);
-    events_of(w).push_back({Kind::cursor,
-                            0,
-                            false,
-                            static_cast<float>(x * fw / std::max(ww, 1)),
-                            static_cast<float>(y * fh / std::max(wh, 1)),
-                            {}});
+    events_of(w).push({Kind::cursor,
+                       0,
+                       false,
+                       static_cast<float>(x * fw / std::max(ww, 1)),
+                       static_cast<float>(y * fh / std::max(wh, 1)),
+                       {}});
   });
   glfw().SetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
     if (entered == GLFW_FALSE && glfw().GetMouseButton(w, GLFW_MOUSE_BUTTON_LEFT) == GLFW_RELEASE)
-      events_of(w).push_back({Kind::cursor, 0, false, -1e6f, -1e6f, {}});
+      events_of(w).push({Kind::cursor, 0, false, -1e6f, -1e6f, {}});
   });
   glfw().SetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
     if (button >= 0 && button < 3)
-      events_of(w).push_back({Kind::button, button, action == GLFW_PRESS, 0.0f, 0.0f, {}});
+      events_of(w).push({Kind::button, button, action == GLFW_PRESS, 0.0f, 0.0f, {}});
   });
   glfw().SetScrollCallback(window_, [](GLFWwindow* w, double, double y) {
-    events_of(w).push_back({Kind::wheel, 0, false, 0.0f, static_cast<float>(y), {}});
+    events_of(w).push({Kind::wheel, 0, false, 0.0f, static_cast<float>(y), {}});
   });
   glfw().SetKeyCallback(window_, [](GLFWwindow* w, int key, int, int action, int) {
     if (key >= 0 && key < key_count && action != GLFW_REPEAT)
-      events_of(w).push_back({Kind::key, key, action == GLFW_PRESS, 0.0f, 0.0f, {}});
+      events_of(w).push({Kind::key, key, action == GLFW_PRESS, 0.0f, 0.0f, {}});
   });
   glfw().SetCharCallback(window_, [](GLFWwindow* w, unsigned character) {
-    events_of(w).push_back({Kind::text, static_cast<int>(character), false, 0.0f, 0.0f, {}});
+    events_of(w).push({Kind::text, static_cast<int>(character), false, 0.0f, 0.0f, {}});
   });
   glfw().SetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
-    if (count > 0) events_of(w).push_back({Kind::drop, 0, false, 0.0f, 0.0f, paths[count - 1]});
+    if (count > 0) events_of(w).push({Kind::drop, 0, false, 0.0f, 0.0f, paths[count - 1]});
   });
   // Without focus the releases of keys and buttons are not told.
   glfw().SetWindowFocusCallback(window_, [](GLFWwindow* w, int focused) {
     if (focused != GLFW_FALSE) return;
     for (int button = 0; button < 3; ++button)
-      events_of(w).push_back({Kind::button, button, false, 0.0f, 0.0f, {}});
+      events_of(w).push({Kind::button, button, false, 0.0f, 0.0f, {}});
   });
 }
 
@@ -151,52 +151,10 @@ void GlfwWindow::wake() {
   if (waiting_.exchange(false)) glfw().PostEmptyEvent();
 }
 
-Input GlfwWindow::next_input(double seconds) {
-  using Kind = Event::Kind;
+std::vector<Input> GlfwWindow::inputs(double seconds) {
   int width = 0, height = 0;
   glfw().GetFramebufferSize(window_, &width, &height);
-  input_.width = std::max(width, 1);
-  input_.height = std::max(height, 1);
-  input_.seconds = seconds;
-  input_.wheel = 0.0f;
-  input_.text.clear();
-  input_.dropped.clear();
-  bool changed = false;  // a button or key
-  while (!events_.empty()) {
-    Event& event = events_.front();
-    const bool change = event.kind == Kind::button || event.kind == Kind::key;
-    if (changed && (change || event.kind == Kind::cursor)) break;
-    switch (event.kind) {
-      case Kind::cursor:
-        input_.cursor = {event.x, event.y};
-        break;
-      case Kind::button:
-        input_.buttons[static_cast<std::size_t>(event.code)] = event.down;
-        break;
-      case Kind::wheel:
-        input_.wheel += event.y;
-        break;
-      case Kind::key: {
-        const auto key = static_cast<Key>(event.code);
-        std::erase(input_.down, key);
-        if (event.down) input_.down.push_back(key);
-        if (event.code == GLFW_KEY_LEFT_CONTROL || event.code == GLFW_KEY_RIGHT_CONTROL)
-          input_.control = event.down;
-        if (event.code == GLFW_KEY_LEFT_SHIFT || event.code == GLFW_KEY_RIGHT_SHIFT)
-          input_.shift = event.down;
-        break;
-      }
-      case Kind::text:
-        input_.text.push_back(static_cast<unsigned>(event.code));
-        break;
-      case Kind::drop:
-        input_.dropped.emplace_back(event.path);
-        break;
-    }
-    changed = changed || change;
-    events_.pop_front();
-  }
-  return input_;
+  return events_.take(std::max(width, 1), std::max(height, 1), seconds);
 }
 
 void GlfwWindow::swap() {

@@ -1,6 +1,6 @@
 // A window of GLFW's with OpenGL 3.3, and its events as the interface's input.
 //
-// Button and key events come one a frame, so that a quick click or a drag's start is not lost.
+// All events since the last frame come in their order, a quick click and a drag's start too.
 //
 // Units    pixels of the framebuffer from the top left
 // Errors   std::runtime_error, one line: no display, no OpenGL 3.3
@@ -8,12 +8,12 @@
 #pragma once
 
 #include <atomic>
-#include <deque>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "render/context.hpp"
-#include "view/ui.hpp"
+#include "view/input.hpp"
 
 struct GLFWwindow;
 
@@ -36,18 +36,10 @@ class GlfwWindow {
   void poll() { collect(0.0); }
   void wait(double at_most) { collect(at_most); }
   void wake();
-  Input next_input(double seconds);
-  bool has_more() const { return !events_.empty(); }
+  // What has happened since the last call, `seconds` ago.
+  std::vector<Input> inputs(double seconds);
   void swap();
   double frame_period() const { return period_; }
-
-  struct Event {
-    enum class Kind { cursor, button, wheel, key, text, drop } kind = Kind::cursor;
-    int code = 0;
-    bool down = false;
-    float x = 0.0f, y = 0.0f;
-    std::string path;
-  };
 
  private:
   struct Library {
@@ -63,8 +55,7 @@ class GlfwWindow {
   float scale_ = 1.0f;
   double period_ = 1.0 / 60.0;
   std::atomic<bool> waiting_{false};
-  std::deque<Event> events_;
-  Input input_;
+  InputQueue events_;
 };
 
 }  // namespace app::view

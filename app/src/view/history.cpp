@@ -1,51 +1,51 @@
 #include "view/history.hpp"
 
-#include <cmath>
+#include <algorithm>
 
 namespace app::view {
-namespace {
 
-constexpr std::size_t most_samples = 3000;
-
-}  // namespace
-
-double drift_of(const Display& display) {
-  const rheo::Energies& e = display.energies;
-  return e.kinetic + e.stored + e.dissipated - e.work - display.energy_start;
+History::History() {
+  for (std::vector<double>* column : columns()) column->reserve(most_samples);
 }
 
-void History::clear() {
-  for (std::vector<double>* x :
-       {&t, &w_lambda, &w_mu, &kinetic, &stored, &dissipated, &work, &drift, &moved, &force})
-    x->clear();
-  least_ = 0.0;
+std::array<std::vector<double>*, 10> History::columns() {
+  return {&t, &w_lambda, &w_mu, &kinetic, &stored, &dissipated, &work, &drift, &moved, &force};
+}
+std::array<const std::vector<double>*, 10> History::columns() const {
+  return {&t, &w_lambda, &w_mu, &kinetic, &stored, &dissipated, &work, &drift, &moved, &force};
 }
 
-void History::thin_out() {
-  for (std::vector<double>* x :
-       {&t, &w_lambda, &w_mu, &kinetic, &stored, &dissipated, &work, &drift, &moved, &force}) {
-    for (std::size_t i = 0; 2 * i < x->size(); ++i) (*x)[i] = (*x)[2 * i];
-    x->resize((x->size() + 1) / 2);
+void History::begin(std::int64_t first_every) {
+  for (std::vector<double>* column : columns()) column->clear();
+  every_ = std::max<std::int64_t>(first_every, 1);
+  ++beginning_;
+}
+
+void History::add(const Sample& s) {
+  const std::array<double, 10> values{s.t,          s.w_lambda, s.w_mu,  s.kinetic, s.stored,
+                                      s.dissipated, s.work,     s.drift, s.moved,   s.force};
+  const auto all = columns();
+  for (std::size_t k = 0; k < all.size(); ++k) all[k]->push_back(values[k]);
+  if (t.size() < most_samples) return;
+  for (std::vector<double>* column : all) {
+    for (std::size_t i = 0; 2 * i < column->size(); ++i) (*column)[i] = (*column)[2 * i];
+    column->resize((column->size() + 1) / 2);
   }
-  least_ = (t.back() - t.front()) / static_cast<double>(most_samples - 1);
+  every_ *= 2;
+  ++beginning_;
 }
 
-void History::add(const Display& display) {
-  if (display.body != body_ || (!t.empty() && display.t < t.back())) clear();
-  body_ = display.body;
-  if (!t.empty() && display.t < t.back() + least_) return;
-  if (!t.empty() && display.t == t.back()) return;
-  t.push_back(display.t);
-  w_lambda.push_back(display.w_lambda_norm);
-  w_mu.push_back(display.w_mu_norm);
-  kinetic.push_back(display.energies.kinetic);
-  stored.push_back(display.energies.stored);
-  dissipated.push_back(display.energies.dissipated);
-  work.push_back(display.energies.work);
-  drift.push_back(drift_of(display));
-  moved.push_back(std::hypot(display.hand.displacement.x, display.hand.displacement.y));
-  force.push_back(std::hypot(display.hand.force.x, display.hand.force.y));
-  if (t.size() > most_samples) thin_out();
+void History::follow(const History& newer) {
+  const auto mine = columns();
+  const auto theirs = newer.columns();
+  const std::size_t known = beginning_ == newer.beginning_ ? size() : 0;
+  for (std::size_t k = 0; k < mine.size(); ++k) {
+    mine[k]->resize(known);
+    mine[k]->insert(mine[k]->end(), theirs[k]->begin() + static_cast<std::ptrdiff_t>(known),
+                    theirs[k]->end());
+  }
+  every_ = newer.every_;
+  beginning_ = newer.beginning_;
 }
 
 }  // namespace app::view

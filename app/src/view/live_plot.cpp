@@ -1,8 +1,6 @@
 #include "view/live_plot.hpp"
 
 #include <fmt/format.h>
-#include <imgui.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -35,6 +33,15 @@ std::string short_number(double value) {
   return fmt::format("{:.3g}{}", value / std::pow(1000.0, group), prefixes[group + 4]);
 }
 
+std::string with_unit(double value, const char* unit) {
+  std::string text = short_number(value);
+  const bool prefixed = !text.empty() && !(text.back() >= '0' && text.back() <= '9');
+  if (!prefixed) return fmt::format("{} {}", text, unit);
+  // The prefix goes to the unit; it may take two bytes.
+  const std::size_t at = text.find_first_not_of("0123456789.-+e");
+  return fmt::format("{} {}{}", text.substr(0, at), text.substr(at), unit);
+}
+
 namespace {
 
 struct Frame {
@@ -58,11 +65,8 @@ void draw_curve(ImDrawList& list, const Frame& frame, std::span<const double> t,
 
 }  // namespace
 
-void live_plot(const char* title, const char* unit, std::span<const double> t, std::span<const Curve> curves,
-               const ImVec2& size) {
-  const ImVec2 corner = ImGui::GetCursorScreenPos();
-  ImGui::InvisibleButton(title, size);
-  const bool hovered = ImGui::IsItemHovered();
+void live_plot(const PlotPlace& place, std::span<const double> t, std::span<const Curve> curves) {
+  const auto& [title, unit, corner, size, hovered] = place;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float text = ImGui::GetFontSize();
   const ImU32 ink = ImGui::GetColorU32(ImGuiCol_Text), soft = ImGui::GetColorU32(ImGuiCol_TextDisabled);

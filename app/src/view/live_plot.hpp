@@ -4,11 +4,11 @@
 // Errors   none: what is not finite is left out
 #pragma once
 
+#include <imgui.h>
+
 #include <span>
 #include <string>
 #include <vector>
-
-struct ImVec2;
 
 namespace app::view {
 
@@ -18,13 +18,20 @@ struct Curve {
   unsigned color;  // ImGui's packed
 };
 
-// Takes `size` at the interface's cursor.
-void live_plot(const char* title, const char* unit, std::span<const double> t, std::span<const Curve> curves,
-               const ImVec2& size);
+struct PlotPlace {
+  const char* title;
+  const char* unit;
+  ImVec2 corner, size;  // pixels
+  bool hovered;         // then the values under the cursor are told
+};
+
+void live_plot(const PlotPlace& place, std::span<const double> t, std::span<const Curve> curves);
 
 // Steps of 1, 2 or 5 times a power of ten with about `count` ticks.
 std::vector<double> axis_ticks(double low, double high, int count);
 // "1.5m", "20k": three digits and a prefix.
 std::string short_number(double value);
+// "20 kPa": the prefix goes to the unit.
+std::string with_unit(double value, const char* unit);
 
 }  // namespace app::view

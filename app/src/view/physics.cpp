@@ -58,6 +58,7 @@ void Physics::run() {
   {
     const std::lock_guard lock(mutex_);
     run_ = true;
+    turn_ = false;
   }
   wake_.notify_one();
 }
@@ -65,6 +66,15 @@ void Physics::pause() {
   {
     const std::lock_guard lock(mutex_);
     run_ = false;
+    turn_ = false;
+  }
+  wake_.notify_one();
+}
+void Physics::run_or_pause() {
+  {
+    const std::lock_guard lock(mutex_);
+    turn_ = !turn_;
+    turned_ = true;
   }
   wake_.notify_one();
 }
@@ -99,14 +109,16 @@ bool Physics::take_commands() {
     commands.swap(commands_);
     edited.swap(edit_);
     target.swap(aim_);
-    any = !commands.empty() || edited || target || run_ || set_speed_ || asked_ticks_ > 0;
-    if ((run_ && *run_ != running_) || set_speed_) {
-      running_ = run_.value_or(running_);
+    any = !commands.empty() || edited || target || run_ || turned_ || set_speed_ || asked_ticks_ > 0;
+    const bool running = run_.value_or(running_) != turn_;
+    if (running != running_ || set_speed_) {
+      running_ = running;
       speed_ = set_speed_.value_or(speed_);
       marks_.clear();
       anchor_now();
     }
     run_.reset();
+    turn_ = turned_ = false;
     set_speed_.reset();
     owed_ticks_ += std::exchange(asked_ticks_, 0);
   }
@@ -184,7 +196,8 @@ void Physics::loop() {
     std::unique_lock lock(mutex_);
     if (quit_) return;
     const auto something = [this] {
-      return quit_ || !commands_.empty() || edit_ || aim_ || run_ || set_speed_ || asked_ticks_ > 0;
+      return quit_ || !commands_.empty() || edit_ || aim_ || run_ || turned_ || set_speed_ ||
+             asked_ticks_ > 0;
     };
     if (idle) {
       wake_.wait(lock, something);

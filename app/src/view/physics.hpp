@@ -41,6 +41,7 @@ class Physics {
   void aim(rheo::Vec2 target);  // likewise
   void run();
   void pause();
+  void run_or_pause();  // the other of the two, counted from what was asked for last
   void set_speed(double speed);
   // So many ticks now, whether running or not; a recording asks for each of its frames that way.
   void step(int ticks);
@@ -68,6 +69,7 @@ class Physics {
   std::optional<rheo::Scene> edit_;
   std::optional<rheo::Vec2> aim_;
   std::optional<bool> run_;
+  bool turn_ = false, turned_ = false;  // running into paused or back, after run_; whether that was asked for
   std::optional<double> set_speed_;
   int asked_ticks_ = 0;
   bool quit_ = false;

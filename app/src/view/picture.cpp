@@ -52,7 +52,7 @@ void Picture::find_range(const Display& display, const PictureStyle& style) {
   for (const double value : scalar_)
     if (std::isfinite(value)) largest_ = std::max(largest_, value);
   if (style.range_mode == RangeMode::typed)
-    range_ = {style.typed[0], style.typed[1]};
+    range_ = style.typed;
   else if (style.range_mode == RangeMode::automatic)
     range_ = {0.0, rounded_up(largest_)};
 }

@@ -20,7 +20,7 @@ enum class RangeMode { automatic, held, typed };
 struct PictureStyle {
   rheo::ColorBy color = rheo::ColorBy::w_lambda;
   RangeMode range_mode = RangeMode::automatic;
-  std::array<float, 2> typed{0.0f, 1.0f};
+  std::array<double, 2> typed{0.0, 1.0};
   bool mesh_lines = true, rest_shape = true, node_numbers = false, dark = false;
 };
 

@@ -22,6 +22,7 @@ constexpr std::size_t most_times = 240;            // frames that medians are of
 constexpr double recorded_rate = 60.0;             // frames a second of the user's time
 constexpr int panel_room = 760, strip_room = 520;  // windows below show no panels by themselves
 constexpr float font_pixels = 15.0f;
+constexpr float largest_scale = 4.0f;
 
 void keep(std::deque<double>& values, double value, std::size_t most) {
   values.push_back(value);
@@ -40,6 +41,11 @@ Percentiles percentiles_of(const std::deque<double>& values) {
   return {at(0.5), at(0.99)};
 }
 
+float interface_scale(float of_display, int width, int height) {
+  const float room = std::min(static_cast<float>(width) / 1280.0f, static_cast<float>(height) / 720.0f);
+  return std::clamp(std::floor(8.0f * room) / 8.0f, of_display, std::max(of_display, largest_scale));
+}
+
 Draft::Draft(const rheo::Scene& scene)
     : material(scene.material), acceleration(scene.body_acceleration), time(scene.time) {
   for (const rheo::Traction& traction : scene.tractions) tractions.push_back(traction.keys.front().p);
@@ -52,6 +58,8 @@ rheo::Scene Draft::on(const rheo::Scene& scene) const {
   for (std::size_t i = 0; i < regions.size() && i < edited.regions.size(); ++i)
     edited.regions[i].material = regions[i];
   edited.body_acceleration = acceleration;
+  if (static_cast<std::size_t>(edited.picture.branch) > rheo::most_branches(edited))
+    edited.picture.branch = 0;
   edited.time = time;
   edited.time.where.clear();
   for (std::size_t i = 0; i < tractions.size() && i < edited.tractions.size(); ++i)
@@ -66,7 +74,8 @@ Ui::Ui(render::Context& context, Physics& physics, UiSettings settings)
       screen_(context, 320, 200),
       picture_(context),
       recording_(settings_.folder),
-      style_(settings_.style) {
+      style_(settings_.style),
+      scale_(settings_.scale) {
   ImGui::SetCurrentContext(imgui_);
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
@@ -81,18 +90,7 @@ Ui::Ui(render::Context& context, Physics& physics, UiSettings settings)
       {ImGuiKey_X, key_of('X')},    {ImGuiKey_Y, key_of('Y')},       {ImGuiKey_Z, key_of('Z')}};
   for (const auto& [theirs, ours] : keys) io.KeyMap[theirs] = static_cast<int>(ours);
 
-  ImFontConfig config;
-  config.FontDataOwnedByAtlas = false;
-  ImFontGlyphRangesBuilder builder;
-  builder.AddRanges(io.Fonts->GetGlyphRangesDefault());
-  builder.AddText("\u03bb\u03bc\u03c9\u03c1\u2013\u2026\u2192\u2265\u2264");
-  ImVector<ImWchar> ranges;
-  builder.BuildRanges(&ranges);
-  const auto font = render::embedded_font();
-  io.Fonts->AddFontFromMemoryTTF(const_cast<unsigned char*>(font.data()), static_cast<int>(font.size()),
-                                 std::round(font_pixels * settings_.scale), &config, ranges.Data);
-  io.Fonts->Build();
-  screen_.upload_fonts(*io.Fonts);
+  load_fonts();
   set_style_colors();
   display_ = &physics_.newest();
 
@@ -110,6 +108,30 @@ Ui::~Ui() {
   ImGui::DestroyContext(imgui_);
 }
 
+void Ui::load_fonts() {
+  ImGuiIO& io = ImGui::GetIO();
+  io.Fonts->Clear();
+  ImFontConfig config;
+  config.FontDataOwnedByAtlas = false;
+  ImFontGlyphRangesBuilder builder;
+  builder.AddRanges(io.Fonts->GetGlyphRangesDefault());
+  builder.AddText("\u03bb\u03bc\u03c9\u03c1\u2013\u2026\u2192\u2265\u2264");
+  ImVector<ImWchar> ranges;
+  builder.BuildRanges(&ranges);
+  const auto font = render::embedded_font();
+  io.Fonts->AddFontFromMemoryTTF(const_cast<unsigned char*>(font.data()), static_cast<int>(font.size()),
+                                 std::round(font_pixels * scale_), &config, ranges.Data);
+  io.Fonts->Build();
+  screen_.upload_fonts(*io.Fonts);
+}
+
+void Ui::set_scale(float scale) {
+  if (scale == scale_) return;
+  scale_ = scale;
+  load_fonts();
+  set_style_colors();
+}
+
 void Ui::set_style_colors() {
   ImGuiStyle style;
   if (style_.dark)
@@ -123,7 +145,7 @@ void Ui::set_style_colors() {
   style.FrameBorderSize = style_.dark ? 0.0f : 1.0f;
   style.WindowPadding = {10.0f, 8.0f};
   style.ItemSpacing = {6.0f, 5.0f};
-  style.ScaleAllSizes(settings_.scale);
+  style.ScaleAllSizes(scale_);
   style.Colors[ImGuiCol_WindowBg] =
       style_.dark ? ImVec4(0.115f, 0.125f, 0.15f, 1.0f) : ImVec4(0.955f, 0.96f, 0.97f, 1.0f);
   ImGui::GetStyle() = style;
@@ -158,7 +180,7 @@ void Ui::take_input(const Input& input) {
 
 // The picture keeps what panels leave; where they would leave too little they are not shown.
 void Ui::lay_out(const Input& input) {
-  const float s = settings_.scale;
+  const float s = scale_;
   const auto px = [s](double size) { return static_cast<int>(std::lround(size * static_cast<double>(s))); };
   window_ = {input.width, input.height};
   panel_width_ = panels_ && input.width >= px(panel_room) ? px(334) : 0;
@@ -168,11 +190,7 @@ void Ui::lay_out(const Input& input) {
 }
 
 void Ui::toggle_run() {
-  if (recording_.is_on()) return;
-  if (display_->running)
-    physics_.pause();
-  else
-    physics_.run();
+  if (!recording_.is_on()) physics_.run_or_pause();
 }
 
 void Ui::set_speed(double speed) {
@@ -233,57 +251,98 @@ void Ui::save_picture(bool whole) {
 void Ui::take_keys(const Input& input) {
   std::vector<char> down(key_count, 0);
   for (const Key key : input.down) down[static_cast<std::size_t>(key)] = 1;
-  const auto pressed = [&](Key key) {
-    const auto k = static_cast<std::size_t>(key);
-    return down[k] != 0 && was_down_[k] == 0;
-  };
-  if (!ImGui::GetIO().WantTextInput) {
-    if (input.control) {
-      if (pressed(key_of('S'))) save_session();
-      if (pressed(key_of('Q'))) quit_ = true;
-    } else {
-      if (pressed(Key::space)) toggle_run();
-      if (pressed(Key::period)) physics_.step(1);
-      if (pressed(key_of('R'))) {
-        end_hand();
-        physics_.post([](Core& core) { core.reset(); });
-        if (input.shift)
-          physics_.run();
-        else
-          physics_.pause();
-      }
-      if (pressed(key_of('F')) || pressed(Key::home)) picture_.fit();
-      if (pressed(key_of('G'))) mode_ = mode_ == Hold::push ? Hold::grab : Hold::push;
-      if (pressed(key_of('W'))) style_.mesh_lines = !style_.mesh_lines;
-      if (pressed(key_of('B'))) style_.rest_shape = !style_.rest_shape;
-      if (pressed(key_of('N'))) style_.node_numbers = !style_.node_numbers;
-      if (pressed(key_of('D'))) style_.dark = !style_.dark;
-      if (pressed(key_of('C')))
-        style_.color = static_cast<rheo::ColorBy>((static_cast<int>(style_.color) + 1) % 5);
-      if (pressed(key_of('P'))) plots_ = !plots_;
-      if (pressed(Key::tab)) panels_ = plots_ = !(panels_ || plots_);
-      if (pressed(key_of('H')) || pressed(Key::f1)) help_ = !help_;
-      if (pressed(Key::escape)) help_ = false;
-      if (pressed(Key::equal) || pressed(Key::keypad_add)) set_speed(speed_ * 2.0);
-      if (pressed(Key::minus) || pressed(Key::keypad_subtract)) set_speed(speed_ / 2.0);
-      if (pressed(key_of('1'))) set_speed(1.0);
-      if (pressed(Key::left_bracket)) brush_ = std::max(6.0f, brush_ / 1.3f);
-      if (pressed(Key::right_bracket)) brush_ = std::min(300.0f, brush_ * 1.3f);
-      if (pressed(Key::f12)) save_picture(input.shift);
-      if (pressed(Key::f9)) {
-        if (recording_.is_on()) {
-          say(recording_.stop());
-          if (run_after_recording_) physics_.run();
-        } else {
-          say(recording_.start());
-          run_after_recording_ = display_->running;
-          physics_.pause();
-          recorded_ticks_ = -1;
-        }
-      }
-    }
+  for (const Key key : input.down) {
+    if (was_down_[static_cast<std::size_t>(key)] != 0 || ImGui::GetIO().WantTextInput) continue;
+    if (const auto action = action_of(key, input.control, input.shift)) act(*action);
   }
   was_down_ = std::move(down);
+}
+
+void Ui::act(Action action) {
+  switch (action) {
+    case Action::run_or_pause:
+      return toggle_run();
+    case Action::one_tick:
+      return physics_.step(1);
+    case Action::reset:
+      reset();
+      return physics_.pause();
+    case Action::restart:
+      reset();
+      return physics_.run();
+    case Action::fit:
+      return picture_.fit();
+    case Action::push_or_grab:
+      if (!dragging_) mode_ = mode_ == Hold::push ? Hold::grab : Hold::push;
+      return;
+    case Action::mesh_lines:
+      style_.mesh_lines = !style_.mesh_lines;
+      return;
+    case Action::rest_shape:
+      style_.rest_shape = !style_.rest_shape;
+      return;
+    case Action::node_numbers:
+      style_.node_numbers = !style_.node_numbers;
+      return;
+    case Action::dark:
+      style_.dark = !style_.dark;
+      return;
+    case Action::next_colour:
+      style_.color = static_cast<rheo::ColorBy>((static_cast<int>(style_.color) + 1) % 5);
+      return;
+    case Action::plots:
+      plots_ = !plots_;
+      return;
+    case Action::panels:
+      panels_ = plots_ = !(panels_ || plots_);
+      return;
+    case Action::help:
+      help_ = !help_;
+      return;
+    case Action::close_help:
+      help_ = false;
+      return;
+    case Action::faster:
+      return set_speed(speed_ * 2.0);
+    case Action::slower:
+      return set_speed(speed_ / 2.0);
+    case Action::real_time:
+      return set_speed(1.0);
+    case Action::smaller_brush:
+      brush_ = std::max(smallest_brush, brush_ / 1.3f);
+      return;
+    case Action::larger_brush:
+      brush_ = std::min(largest_brush, brush_ * 1.3f);
+      return;
+    case Action::save_picture:
+      return save_picture(false);
+    case Action::save_window:
+      return save_picture(true);
+    case Action::record:
+      return toggle_recording();
+    case Action::save_session:
+      return save_session();
+    case Action::quit:
+      quit_ = true;
+      return;
+  }
+}
+
+void Ui::reset() {
+  end_hand();
+  physics_.post([](Core& core) { core.reset(); });
+}
+
+void Ui::toggle_recording() {
+  if (recording_.is_on()) {
+    say(recording_.stop());
+    if (run_after_recording_) physics_.run();
+    return;
+  }
+  say(recording_.start());
+  run_after_recording_ = display_->running;
+  physics_.pause();
+  recorded_ticks_ = -1;
 }
 
 void Ui::end_hand() {
@@ -301,7 +360,7 @@ void Ui::use_hand() {
   if (!dragging_) {
     hovered_.clear();
     if (inside && !panning_)
-      hovered_ = edges_at(*display_, picture_.plane(), cursor, static_cast<double>(brush_ * settings_.scale),
+      hovered_ = edges_at(*display_, picture_.plane(), cursor, static_cast<double>(brush_ * scale_),
                           most_picked_edges);
   }
   if (inside && io.MouseDoubleClicked[0] && hovered_.empty()) picture_.fit();
@@ -363,52 +422,66 @@ void Ui::record() {
   recorded_ticks_ = display_->ticks;
 }
 
-void Ui::frame(const Input& input) {
-  const auto begin = std::chrono::steady_clock::now();
-  ImGui::SetCurrentContext(imgui_);
-  widgets_.clear();
-  labels_.clear();
-  screen_.resize(std::max(input.width, 1), std::max(input.height, 1));
-  take_input(input);
-  if (style_.dark != dark_set_) set_style_colors();
+// The newest state, and what follows from another body's.
+void Ui::take_display() {
   const Display& newest = physics_.newest();
-  history_.add(newest);
-  const double now = std::chrono::duration<double>(begin.time_since_epoch()).count();
+  const double now =
+      std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
   // A recording is of ticks.
   display_ = recording_.is_on() ? &newest : &slow_motion_.shown(newest, physics_.rate(), now);
   const Display& d = *display_;
   if (d.message_number != message_seen_) say(d.message);
   if (d.body != gain_of_) push_gain_ = default_push(*d.scene);
   gain_of_ = d.body;
-  if (base_body_ != d.body) base_ = d.scene;
-  if (base_body_ != d.body && base_body_ >= 0) style_.color = d.scene->picture.color;
-  if (base_body_ != d.body) {  // another scene's times are its own
+  if (base_body_ != d.body) {
+    base_ = d.scene;
+    if (base_body_ >= 0) style_.color = d.scene->picture.color;
+    // Another scene's times are its own.
     for (std::deque<double>* times : {&intervals_, &draw_seconds_, &physics_seconds_, &steps_})
       times->clear();
   }
   base_body_ = d.body;
-  toast_left_ -= input.seconds;
-  note_times(input);
+}
 
-  ImGui::NewFrame();
-  take_keys(input);
-  if (!input.dropped.empty()) load(input.dropped.back());
-  lay_out(input);
-  // Other values than the panels' may be in force: a refused one, another scene.
-  if (!draft_ || ((draft_of_ != d.scene || message_seen_ != d.message_number) && !ImGui::IsAnyItemActive())) {
-    draft_ = std::make_unique<Draft>(*d.scene);
-    draft_of_ = d.scene;
-    message_seen_ = d.message_number;
+// Other values than the panels' may be in force: a refused one, another scene.
+void Ui::take_draft() {
+  const Display& d = *display_;
+  const bool other = draft_of_ != d.scene || message_seen_ != d.message_number;
+  if (draft_ && (!other || ImGui::IsAnyItemActive())) return;
+  draft_ = std::make_unique<Draft>(*d.scene);
+  draft_of_ = d.scene;
+  message_seen_ = d.message_number;
+}
+
+void Ui::frame(std::span<const Input> inputs) {
+  const auto begin = std::chrono::steady_clock::now();
+  ImGui::SetCurrentContext(imgui_);
+  const Input& last = inputs.back();
+  screen_.resize(std::max(last.width, 1), std::max(last.height, 1));
+  if (style_.dark != dark_set_) set_style_colors();
+  set_scale(interface_scale(settings_.scale, last.width, last.height));
+  take_display();
+  const Display& d = *display_;
+  toast_left_ -= last.seconds;
+  note_times(last);
+  for (const Input& input : inputs) {
+    widgets_.begin_frame();
+    labels_.clear();
+    take_input(input);
+    ImGui::NewFrame();
+    take_keys(input);
+    if (!input.dropped.empty()) load(input.dropped.back());
+    lay_out(input);
+    take_draft();
+    use_hand();
+    if (&input == &last) {
+      picture_.draw(d, style_, area_[2], area_[3]);
+      record();
+      draw_overlay();
+    }
+    draw_panels();
+    ImGui::Render();
   }
-  use_hand();
-  picture_.draw(d, style_, area_[2], area_[3]);
-  record();
-  draw_overlay();
-  if (panel_width_ > 0) draw_controls();
-  if (strip_height_ > 0) draw_truth_and_plots();
-  if (help_) draw_help();
-  ImGui::Render();
-
   screen_.clear(style_.dark ? std::array<std::uint8_t, 3>{24, 27, 33}
                             : std::array<std::uint8_t, 3>{252, 252, 253});
   screen_.place(picture_.mesh_picture(), area_[0], area_[1]);

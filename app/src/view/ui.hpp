@@ -12,41 +12,28 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "render/screen.hpp"
 #include "view/hand.hpp"
-#include "view/history.hpp"
-#include "view/keys.hpp"
+#include "view/input.hpp"
+#include "view/key_bindings.hpp"
 #include "view/physics.hpp"
 #include "view/picture.hpp"
 #include "view/recording.hpp"
 #include "view/slow_motion.hpp"
+#include "view/widgets.hpp"
 
 struct ImGuiContext;
-struct ImVec2;
 
 namespace app::view {
-
-// What has happened since the last frame. One change of a button or key a frame: Dear ImGui 1.86 keeps no
-// queue.
-struct Input {
-  int width = 1280, height = 720;
-  double seconds = 1.0 / 60.0;  // since the last frame
-  std::array<float, 2> cursor{-1e6f, -1e6f};
-  std::array<bool, 3> buttons{};  // left, right, middle
-  float wheel = 0.0f;
-  bool control = false, shift = false;
-  std::vector<Key> down;       // all keys that are down
-  std::vector<unsigned> text;  // characters typed
-  std::vector<std::filesystem::path> dropped;
-};
 
 struct UiSettings {
   std::filesystem::path scene;   // for the list of its folder
   std::filesystem::path folder;  // of pictures, frames, sessions
-  float scale = 1.0f;            // of texts and widgets
+  float scale = 1.0f;            // of texts and widgets in a small window: the display's
   PictureStyle style;
   // Reads a scene file; rheo::Error otherwise.
   std::function<rheo::Scene(const std::filesystem::path&)> read;
@@ -69,6 +56,12 @@ struct Draft {
   rheo::Scene on(const rheo::Scene& scene) const;
 };
 
+inline constexpr float smallest_brush = 6.0f, largest_brush = 300.0f;  // pixels
+
+// Of texts and widgets, in steps: they grow with the window as the picture's do, from the display's own scale
+// on.
+float interface_scale(float of_display, int width, int height);
+
 class Ui {
  public:
   // Both must outlive this.
@@ -77,8 +70,9 @@ class Ui {
   Ui(const Ui&) = delete;
   Ui& operator=(const Ui&) = delete;
 
-  // Draws all into screen().
-  void frame(const Input& input);
+  // Takes the inputs in their order, then draws all into screen().
+  void frame(std::span<const Input> inputs);
+  void frame(const Input& input) { frame({&input, 1}); }
   render::Screen& screen() { return screen_; }
   // Whether the next frame will differ though nothing is pressed.
   bool is_lively() const { return lively_; }
@@ -90,31 +84,44 @@ class Ui {
   const std::array<int, 4>& picture_area() const { return area_; }
   const std::deque<double>& frame_seconds() const { return frame_seconds_; }
   // What was written in the last frame by the panels, line by line, and where widgets lie: for tests.
-  struct Widget {
-    std::string name;
-    float x0, y0, x1, y1;
-  };
-  const std::vector<Widget>& widgets() const { return widgets_; }
+  const std::vector<Widgets::Seen>& widgets() const { return widgets_.seen(); }
   const std::vector<std::string>& labels() const { return labels_; }
-  const History& history() const { return history_; }
+  const History& history() const { return display_->history; }
   const PictureStyle& style() const { return style_; }
+  Hold mode() const { return mode_; }
+  float brush() const { return brush_; }
+  float scale() const { return scale_; }
 
  private:
+  void take_display();
   void take_input(const Input& input);
   void lay_out(const Input& input);
+  void take_draft();
   void take_keys(const Input& input);
+  void act(Action action);
+  void reset();
+  void toggle_recording();
   void use_hand();
   void end_hand();
   void note_times(const Input& input);
   void record();
 
-  // panels.cpp
+  // overlay.cpp
   void draw_overlay();
+  // material_panel.cpp
+  struct BranchValues {
+    double *lambda_ela, *mu_ela, *lambda_vis, *mu_vis;
+  };
+  void draw_material_section();
+  void draw_material(rheo::Material& m, const rheo::Material& base);
+  void draw_branch(BranchValues b, const rheo::MaxwellBranch& base);
+  void modulus(const char* name, double* value, double base, double usual, const char* unit);
+  void viscosity(const char* name, double* value, double base, double ela);
+  // panels.cpp
+  void draw_panels();
   void draw_controls();
   void draw_hand_section();
   void draw_colour_section();
-  void draw_material_section();
-  void draw_material(rheo::Material& m, const rheo::Material& base);
   void draw_load_section();
   void draw_time_section();
   void draw_scene_section();
@@ -122,14 +129,11 @@ class Ui {
   void draw_truth();
   void draw_plots(float width, float height);
   void draw_help();
-  bool button(const char* name);
-  bool checkbox(const char* name, bool* value);
-  bool slider(const char* name, double* value, double low, double high, const char* format);
-  void modulus(const char* name, double* value, double base, const char* unit);
   void label(const std::string& text);
-  void mark(const char* name);
 
   void set_style_colors();
+  void set_scale(float scale);
+  void load_fonts();
   void say(std::string text);
   void edit() { physics_.edit(draft_->on(*display_->scene)); }
   void load(const std::filesystem::path& file);
@@ -144,11 +148,11 @@ class Ui {
   render::Screen screen_;
   Picture picture_;
   Recording recording_;
-  History history_;
   SlowMotion slow_motion_;
   const Display* display_ = nullptr;
   PictureStyle style_;
   bool dark_set_ = false;
+  float scale_ = 1.0f;  // of texts and widgets
 
   std::array<int, 4> area_{0, 0, 240, 160};
   std::array<int, 2> window_{0, 0};
@@ -187,7 +191,7 @@ class Ui {
   std::array<int, 2> recorded_size_{};
 
   std::vector<std::filesystem::path> scenes_;
-  std::vector<Widget> widgets_;
+  Widgets widgets_;
   std::vector<std::string> labels_;
 };
 

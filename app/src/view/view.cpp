@@ -7,11 +7,12 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "failure.hpp"
-#include "overrides.hpp"
 #include "view/glfw_window.hpp"
 #include "view/signal_watch.hpp"
+#include "view/view_setup.hpp"
 
 namespace app {
 namespace {
@@ -24,16 +25,6 @@ double seconds_since(Clock::time_point begin) {
 
 constexpr double longest_wait = 3600.0;
 constexpr double minimised_wait = 0.25;  // [s]
-
-view::PictureStyle style_of(const rheo::PictureSettings& picture) {
-  view::PictureStyle style;
-  style.color = picture.color;
-  if (!picture.range_auto) {
-    style.range_mode = view::RangeMode::typed;
-    style.typed = {static_cast<float>(picture.range[0]), static_cast<float>(picture.range[1])};
-  }
-  return style;
-}
 
 std::string title_of(const rheo::Scene& scene) {
   return scene.title.empty() ? "rheo" : scene.title + " - rheo";
@@ -51,7 +42,7 @@ void show(view::GlfwWindow& window, view::Ui& ui, const view::SignalWatch& signa
       window.wait(std::min(left, minimised_wait));
       continue;
     }
-    if (ui.is_lively() || window.has_more()) {
+    if (ui.is_lively()) {
       window.poll();
       // Where the display does not hold the swap back.
       while (seconds_since(last) < 0.9 * window.frame_period())
@@ -61,7 +52,7 @@ void show(view::GlfwWindow& window, view::Ui& ui, const view::SignalWatch& signa
     }
     const double interval = seconds_since(last);
     last = Clock::now();
-    ui.frame(window.next_input(interval));
+    ui.frame(window.inputs(interval));
     if (ui.shown().scene != scene) {
       scene = ui.shown().scene;
       window.set_title(title_of(*scene));
@@ -74,31 +65,18 @@ void show(view::GlfwWindow& window, view::Ui& ui, const view::SignalWatch& signa
 }  // namespace
 
 void view_scene(const Options& options) {
-  rheo::Scene scene = load_scene(options);
-  const auto size = options.size.value_or(std::array<int, 2>{1280, 720});
+  ViewSetup setup = view_setup(options);
   view::SignalWatch signals;
   std::unique_ptr<view::GlfwWindow> window;
   try {
-    window = std::make_unique<view::GlfwWindow>(title_of(scene), size[0], size[1]);
+    window = std::make_unique<view::GlfwWindow>(title_of(setup.scene), setup.size[0], setup.size[1]);
   } catch (const std::runtime_error& error) {
     throw Failure(ExitCode::usage, fmt::format("view: {}: use rheo render {}, which needs no display",
                                                error.what(), options.scene.string()));
   }
-  view::UiSettings settings;
-  settings.scene = options.scene;
-  settings.folder = options.folder;
-  settings.scale = window->scale();
-  settings.style = style_of(scene.picture);
-  settings.read = [options](const std::filesystem::path& file) {
-    Options other;
-    other.scene = file;
-    other.read = options.read;
-    return load_scene(other);
-  };
-  view::CoreSettings core;
-  core.simulation = options.simulation;
-  view::Physics physics(std::move(scene), core, [&window] { window->wake(); });
-  std::optional<view::Ui> ui(std::in_place, window->context(), physics, std::move(settings));
+  setup.ui.scale = window->scale();
+  view::Physics physics(std::move(setup.scene), setup.core, [&window] { window->wake(); });
+  std::optional<view::Ui> ui(std::in_place, window->context(), physics, std::move(setup.ui));
   physics.run();
   signals.start([&window] { window->wake(); });
   const Clock::time_point start = Clock::now();
