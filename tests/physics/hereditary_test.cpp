@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "rheo/deformation.hpp"
@@ -70,12 +71,23 @@ std::vector<double> stress_by_history(const Material& material, const History& h
   return sigma;
 }
 
+Mesh disk_with_sides() {
+  Mesh mesh = disk(0.5, 2);
+  for (const Edge& edge : std::vector<Edge>(mesh.edge_groups.at("rim"))) {
+    const double x = 0.5 * (mesh.points[edge[0]].x + mesh.points[edge[1]].x);
+    const double y = 0.5 * (mesh.points[edge[0]].y + mesh.points[edge[1]].y);
+    if (std::abs(x) > 0.3) mesh.edge_groups[x < 0.0 ? "left" : "right"].push_back(edge);
+    if (std::abs(x) < 0.2 && y > 0.0) mesh.edge_groups["top"].push_back(edge);
+  }
+  return mesh;
+}
+
 TEST(Hereditary, IntegralOverTheStrainGivesTheStress) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (int k = 0; k < 8; ++k) {
     Scene scene;
-    scene.mesh = rectangle({1.0, 0.6}, 4 + k % 3, 3, Diagonal::alternating);
+    scene.mesh = k % 3 == 2 ? disk_with_sides() : rectangle({1.0, 0.6}, 4 + k % 3, 3, Diagonal::alternating);
     for (Vec2& p : scene.mesh.points) p.x += 0.04 * unit(random), p.y += 0.04 * unit(random);
     prepare(scene.mesh);
     scene.mesh.thickness = 0.3;
@@ -92,6 +104,15 @@ TEST(Hereditary, IntegralOverTheStrainGivesTheStress) {
          {{0.0, {}}, {0.2, {unit(random), unit(random)}}, {0.5, {unit(random), unit(random)}}},
          {0.0, 0.5},
          "pull"});
+    if (k % 2 == 1) {  // and gripped on the other side of it for a while
+      const std::vector<int> gripped = nodes_of(scene.mesh.edge_groups.at("top"));
+      scene.moves.push_back({{gripped[gripped.size() / 2]},
+                             Axis::both,
+                             {0.1, std::numeric_limits<double>::infinity()},
+                             {{0.1, {}, {}}, {0.3, {0.05 * unit(random), 0.05 * unit(random)}, {}}},
+                             Profile::smooth,
+                             "grip"});
+    }
     scene.time.duration = 0.6;
     scene.time.integrator = k % 2 == 0 ? IntegratorKind::exponential : IntegratorKind::rk4;
     scene.time.tolerance = 1e-11;

@@ -104,6 +104,15 @@ TEST(SeveralMaterials, EveryKernelAndIntegratorFollowsTheExactSolution) {
         errors.push_back(run_error(exact, run(scene, kernel)));
       }
       EXPECT_NEAR(std::log2(errors[0] / errors[1]) / 2, 4.0, 0.25) << k << ": " << errors[0];
+      scene.time.integrator = IntegratorKind::euler;
+      scene.time.step = 0.0;
+      const double euler_stable = Simulation(scene, {.kernel = kernel}).stable_step();
+      errors.clear();
+      for (const double parts : {4.0, 16.0}) {
+        scene.time.step = euler_stable / parts;
+        errors.push_back(run_error(exact, run(scene, kernel)));
+      }
+      EXPECT_NEAR(std::log2(errors[0] / errors[1]) / 2, 1.0, 0.1) << k << ": " << errors[0];
     }
     scene.time.integrator = IntegratorKind::implicit;
     scene.time.step = 0.0025;
