@@ -124,7 +124,8 @@ const std::vector<Preset>& material_presets() {
   return presets;
 }
 
-const Preset* find_preset(const std::string& name) {
+const Preset* find_preset(std::string name) {
+  std::ranges::replace(name, '-', '_');
   const auto& presets = material_presets();
   const auto found =
       std::find_if(presets.begin(), presets.end(), [&](const Preset& p) { return p.name == name; });

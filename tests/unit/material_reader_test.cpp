@@ -168,6 +168,15 @@ TEST(MaterialReader, RefusesWhatAPresetHasNoUseFor) {
               AllOf(StartsWith("m.toml:7: [material] preset = \"zenner\": did you mean \"zener\"?"),
                     HasSubstr("\"kelvin_voigt\"")));
   EXPECT_THAT(refusal("preset = 3"), HasSubstr("preset = 3: a text in quotes"));
+  // Whatever stands beside it, and before it.
+  EXPECT_THAT(refusal("lambda_elastic = 4\nyoung_ela_1 = 3\npreset = \"Zenner\""),
+              HasSubstr("preset = \"Zenner\": did you mean \"zener\"?"));
+  EXPECT_THAT(refusal("lambda_elastic = 4\npreset = 3"), HasSubstr("preset = 3: a text in quotes"));
+  EXPECT_EQ(
+      read(
+          "preset = \"kelvin-voigt\"\nlambda_elastic = 4\nmu_elastic = 4\nlambda_viscous = 1\nmu_viscous = 1")
+          .origin.preset,
+      "kelvin_voigt");
   EXPECT_THAT(
       refusal("preset = \"zener\"\nlambda_ela = 1\nmu_ela = 1\nlambda_vis = 1\nmu_vis = 1"),
       HasSubstr("[material] lambda_elastic is missing: elastic of zener, (ela - vis) | elastic, by lambda"));

@@ -58,7 +58,7 @@ struct Preset {
 const std::vector<Preset>& material_presets();
 
 // Of that name; nullptr where there is none.
-const Preset* find_preset(const std::string& name);
+const Preset* find_preset(std::string name);  // "-" counts as "_"
 
 // `material` with its branches, elastic and viscous parts replaced by the preset's. Needs as many values as
 // the preset has elements, each as its kind says.

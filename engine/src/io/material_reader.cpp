@@ -65,11 +65,16 @@ const Preset* preset_in(const TomlValue& table) {
 }
 
 // Those of a preset, or of all other ways. The ways that a preset has no use for are named when they are
-// refused.
+// refused. Beside a preset that is not known any key: it is the preset that is wrong.
 Words keys_of(const TomlValue& table) {
   const Words all =
       Words{"density", "mass", "poisson", "plane", "preset"} + table_keys + data_keys + fit_keys;
   if (const Preset* preset = preset_in(table)) return names_of(preset->elements) + all;
+  if (table.find("preset") != nullptr) {
+    Words any;
+    for (const TomlEntry& entry : table.entries) any.push_back(entry.key);
+    return any;
+  }
   return Words{"lambda_ela", "mu_ela", "lambda_vis", "mu_vis", "density", "mass"} + branch_keys + all;
 }
 
@@ -85,13 +90,14 @@ class MaterialReader {
   MaterialReading read() {
     static const std::array<std::string, 2> planes{"strain", "stress"};
     static const std::array<std::string, 2> masses{"lumped", "consistent"};
+    const Preset* const preset = top_.has("preset") ? &known_preset() : nullptr;
     plane_ = static_cast<Plane>(top_.choice("plane", planes, 0));
     const std::string way = chosen_way();
     Material& m = reading_.material;
     if (way.empty())
       read_parts();
     else if (way == "preset")
-      read_preset();
+      read_preset(*preset);
     else
       read_data(way);
     m.density = top_.required_number("density", density, "the density");
@@ -195,23 +201,24 @@ class MaterialReader {
     return moduli(reader, plain, rule, fmt::format("the {} {} by {{}}", name, what));
   }
 
-  void read_preset() {
+  const Preset& known_preset() const {
     const std::string name = top_.text("preset", {});
-    const Preset* preset = find_preset(name);
-    if (preset == nullptr) {
-      Words known;
-      for (const Preset& p : material_presets()) known.push_back(p.name);
-      const std::string near = nearest_word(name, known);
-      top_.refuse("preset", *top_.find("preset"),
-                  fmt::format("{}{} is allowed",
-                              near.empty() ? "" : fmt::format("did you mean {}? ", in_quotes(near)),
-                              word_list(known)));
-    }
+    if (const Preset* preset = find_preset(name)) return *preset;
+    Words known;
+    for (const Preset& p : material_presets()) known.push_back(p.name);
+    const std::string near = nearest_word(name, known);
+    top_.refuse(
+        "preset", *top_.find("preset"),
+        fmt::format("{}{} is allowed", near.empty() ? "" : fmt::format("did you mean {}? ", in_quotes(near)),
+                    word_list(known)));
+  }
+
+  void read_preset(const Preset& preset) {
     std::vector<Moduli> values;
-    for (const PresetElement& element : preset->elements) values.push_back(element_of(*preset, element));
-    settle_dashpots(*preset, values);
-    reading_.material = expanded(*preset, values, reading_.material);
-    reading_.origin.preset = name;
+    for (const PresetElement& element : preset.elements) values.push_back(element_of(preset, element));
+    settle_dashpots(preset, values);
+    reading_.material = expanded(preset, values, reading_.material);
+    reading_.origin.preset = preset.name;
   }
 
   Moduli element_of(const Preset& preset, const PresetElement& element) {
