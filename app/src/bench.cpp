@@ -53,13 +53,9 @@ bool has_marks(const std::vector<Row>& rows) {
   return std::ranges::any_of(rows, [](const Row& row) { return row.error > 0.0 && row.median() > 0.0; });
 }
 
-}  // namespace
-
-void bench_scene(const Options& options) {
+void bench_loaded(const Options& options, const rheo::Scene& scene) {
   const auto start = std::chrono::steady_clock::now();
   Progress progress(options.quiet ? Verbosity::quiet : Verbosity::normal);
-  const rheo::Scene scene = load(options);
-  require_memory(scene, options);
   require_runnable(scene, options.simulation);
   BenchReport report;
   report.scene_text = file_text(options.scene);
@@ -113,6 +109,14 @@ void bench_scene(const Options& options) {
   progress.line(report.advice);
   if (!options.csv.empty()) progress.line(csv.string());
   for (const std::string& name : folder.all_made()) progress.line((folder.path() / name).string());
+}
+
+}  // namespace
+
+void bench_scene(const Options& options) {
+  const rheo::Scene scene = load(options);
+  require_memory(scene, options);
+  telling_need(scene, options, [&] { bench_loaded(options, scene); });
 }
 
 }  // namespace app

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "drawing_room.hpp"
 #include "option_values.hpp"
 #include "render/context.hpp"
 #include "render/plot.hpp"
@@ -12,6 +13,7 @@ namespace app {
 
 std::string no_picture(const rheo::PictureSettings& picture, const Options& options) {
   try {
+    require_drawing_room();
     render::open_context(backend_of(options.backend), picture.size[0], picture.size[1]);
     return {};
   } catch (const std::runtime_error& error) {

@@ -285,11 +285,7 @@ void print_cost(rheo::Simulation& simulation, Verdict verdict) {
       static_cast<double>(usage.ru_maxrss) / 1024.0, outputs * per_node * scene.mesh.node_count() / 1e6);
 }
 
-}  // namespace
-
-void check_scene(const Options& options) {
-  rheo::Scene scene = load_scene(options);
-  require_memory(scene, options);
+void check_loaded(const Options& options, rheo::Scene scene) {
   std::optional<OutputFolder> folder;  // refused before all the work
   if (options.plot) folder.emplace(options.folder, options.force ? Replace::earlier_run : Replace::nothing);
   std::optional<rheo::AccuracyPlan> plan;
@@ -330,6 +326,14 @@ void check_scene(const Options& options) {
   // A run's own words for the refusal.
   simulation.reset();
   if (verdict != Verdict::accepted) simulation.emplace(scene, options.simulation);
+}
+
+}  // namespace
+
+void check_scene(const Options& options) {
+  rheo::Scene scene = load_scene(options);
+  require_memory(scene, options);
+  telling_need(scene, options, [&] { check_loaded(options, std::move(scene)); });
 }
 
 }  // namespace app

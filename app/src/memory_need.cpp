@@ -1,13 +1,12 @@
 #include "memory_need.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <new>
 
+#include "drawing_room.hpp"
 #include "failure.hpp"
 #include "rheo/memory_limit.hpp"
 #include "rheo/memory_need.hpp"
@@ -15,20 +14,6 @@
 
 namespace app {
 namespace {
-
-// Mapped by OSMesa with LLVM, its threads (as many as processors, 16 at most) and the encoders' [bytes]; 0.77
-// GB where nothing limits two processors, of which some is given up under a limit.
-double drawing_addresses() {
-  return 0.55e9 + 0.075e9 * std::clamp<double>(static_cast<double>(sysconf(_SC_NPROCESSORS_ONLN)), 1.0, 16.0);
-}
-
-// The shell's limit (ulimit -v); infinite where there is none.
-double address_space_limit() {
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
-    return std::numeric_limits<double>::infinity();
-  return static_cast<double>(limit.rlim_cur);
-}
 
 // Beside the simulation's.
 double need_of_command(const rheo::Scene& scene, const Options& options) {
@@ -85,6 +70,16 @@ void require_memory(const rheo::Scene& scene, const Options& options) {
       throw Failure(ExitCode::file, memory_text(scene, options, limit_text(), mapped));
   }
   rheo::require_memory(scene, options.read.memory, also, remedy_of(options));
+}
+
+void telling_need(const rheo::Scene& scene, const Options& options, const std::function<void()>& work) {
+  // Made while there is memory for it.
+  const std::string text = "out of memory: " + memory_text(scene, options, limit_text());
+  try {
+    work();
+  } catch (const std::bad_alloc&) {
+    throw Failure(ExitCode::file, text);
+  }
 }
 
 }  // namespace app

@@ -5,6 +5,7 @@
 //          Failure(file): likewise for the limit that a shell has set (ulimit -v)
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "command_line.hpp"
@@ -19,5 +20,8 @@ std::string memory_text(const rheo::Scene& scene, const Options& options, const 
                         double extra = 0.0);
 
 void require_memory(const rheo::Scene& scene, const Options& options);
+
+// Does `work`; memory that runs out in it is a Failure(file) with the estimate.
+void telling_need(const rheo::Scene& scene, const Options& options, const std::function<void()>& work);
 
 }  // namespace app

@@ -212,8 +212,14 @@ DrawBackend draw_backend(const std::string& option, const std::string& text) {
 const char* name_of(rheo::IntegratorKind kind) {
   return name_in(integrators(), kind);
 }
+const char* name_of(rheo::Kernel kernel) {
+  return name_in(kernels(), kernel);
+}
 const char* name_of(rheo::ColorBy color) {
   return name_in(colors(), color);
+}
+const char* name_of(DrawBackend backend) {
+  return name_in(backends(), backend);
 }
 
 }  // namespace app

@@ -24,8 +24,10 @@ rheo::Kernel kernel_choice(const std::string& option, const std::string& text);
 rheo::ColorBy color_by(const std::string& option, const std::string& text);
 DrawBackend draw_backend(const std::string& option, const std::string& text);
 
-// The names that the last three accept and that reports use.
+// The names that these accept and that reports use.
 const char* name_of(rheo::IntegratorKind kind);
+const char* name_of(rheo::Kernel kernel);
 const char* name_of(rheo::ColorBy color);
+const char* name_of(DrawBackend backend);
 
 }  // namespace app

@@ -39,10 +39,10 @@ std::string run_identity(const Options& options, const rheo::Scene& scene, const
   add("--duration", number(time.duration));
   add("--frame-rate", number(time.frame_rate));
   add("--integrator", name_of(time.integrator));
-  add("--step", number(time.step));
+  add("--step", time.step > 0.0 ? number(time.step) : "auto");
   add("--tolerance", number(time.tolerance));
   add("--accuracy", number(time.accuracy));
-  add("--kernel", std::to_string(static_cast<int>(options.simulation.kernel)));
+  add("--kernel", name_of(options.simulation.kernel));
   add("--no-energies", flag(!options.simulation.energies));
   add("--allow-unstable", flag(options.simulation.allow_unstable));
   add("--vtu", flag(options.vtu));
@@ -54,7 +54,7 @@ std::string run_identity(const Options& options, const rheo::Scene& scene, const
   add("--range", picture.range_auto ? "auto" : number(picture.range[0]) + "," + number(picture.range[1]));
   add("--size", fmt::format("{}x{}", picture.size[0], picture.size[1]));
   add("--sheet", options.sheet ? std::to_string(*options.sheet) : "as suits the run");
-  add("--backend", std::to_string(static_cast<int>(options.backend)));
+  add("--backend", name_of(options.backend));
   return text;
 }
 

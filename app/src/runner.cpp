@@ -74,6 +74,7 @@ class Run {
   void go();
 
  private:
+  void do_all();
   rheo::Simulation build(rheo::Scene scene);
   void open_folder();
   void begin_or_take_up();
@@ -276,6 +277,15 @@ void Run::finish() {
 
 void Run::go() {
   open_folder();
+  try {
+    do_all();
+  } catch (const rheo::Error&) {
+    folder_.require_presence();  // else that is why
+    throw;
+  }
+}
+
+void Run::do_all() {
   begin_or_take_up();
   report_.divergence = simulate();
   progress_.end();

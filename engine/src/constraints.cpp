@@ -204,6 +204,17 @@ void ConstraintSolver::factor_schur(double memory) {
       if (free_[dof]) by_dof[dof].emplace_back(static_cast<int>(j), coefficient);
     }
   }
+  // Counted before a matrix is made of them.
+  const auto met = static_cast<std::size_t>(
+      std::count_if(by_dof.begin(), by_dof.end(), [](const auto& columns) { return !columns.empty(); }));
+  if (met > 0 && m > met) {
+    throw Error(
+        Error::Kind::input,
+        fmt::format(
+            "{} constraints hold at once what can move in {} ways only: at least {} of them follow from or "
+            "contradict the others: take those out",
+            m, met, m - met));
+  }
   std::vector<Eigen::Triplet<double, int>> entries;
   Vector column = Vector::Zero(work_.size());
   Vector y = Vector::Zero(work_.size());

@@ -37,7 +37,8 @@ std::array<double, 4> usable_bounds(std::array<double, 4> b) {
     }
   }
   const double side = std::max({b[2] - b[0], b[3] - b[1]});
-  const double size = side > 0 ? side : std::max({1e-12, std::abs(b[0]) * 1e-3, std::abs(b[1]) * 1e-3});
+  const double reach = std::max(std::abs(b[0]), std::abs(b[1]));
+  const double size = side > 0 ? side : reach > 0 ? 1e-3 * reach : 1;
   for (std::size_t k = 0; k < 2; ++k) {
     if (b[k + 2] - b[k] < 1e-6 * size) {
       const double middle = (b[k] + b[k + 2]) / 2;

@@ -340,6 +340,32 @@ TEST_F(Faults, MemoryThatRunsOutIsOneLine) {
   EXPECT_GT(refused, 0);
   EXPECT_GT(done, 0);
 }
+
+#ifdef RHEO_HAS_RENDERER
+// Libraries that draw end the program where they get no addresses: they are not asked to. Tables are made all
+// the same.
+TEST_F(Faults, DrawingWithoutAddressesIsOneLine) {
+  std::ofstream(folder_ / "scene.toml", std::ios::binary) << case_.scene;
+  for (const rlim_t megabytes : {200, 250, 400}) {
+    const auto prepare = [&] {
+      const rlimit limit{megabytes << 20, megabytes << 20};
+      setrlimit(RLIMIT_AS, &limit);
+    };
+    const Ended plot = run(folder_, {"check", "scene.toml", "--plot", "-o", "plot", "--force"}, prepare);
+    EXPECT_EQ(plot.exit_code, 0) << plot.err;
+    EXPECT_THAT(plot.out, HasSubstr("no picture: no room to draw"));
+    EXPECT_TRUE(fs::exists(folder_ / "plot/relaxation.csv"));
+    const Ended drawn = run(folder_, {"render", "scene.toml", "-o", "drawn", "--force"}, prepare);
+    expect_line(drawn, 4, {"need about", "ulimit -v"});
+    const Ended bench =
+        run(folder_, {"bench", "scene.toml", "-o", "bench", "--force", "--duration", "0.01", "--budget", "1"},
+            prepare);
+    EXPECT_EQ(bench.exit_code, 0) << bench.err;
+    EXPECT_THAT(bench.out, HasSubstr("no picture: no room to draw"));
+    EXPECT_TRUE(fs::exists(folder_ / "bench/bench.csv"));
+  }
+}
+#endif
 #endif
 
 #ifdef RHEO_HAS_RENDERER

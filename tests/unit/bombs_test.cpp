@@ -135,6 +135,10 @@ TEST(Bombs, MeshesThatPromiseMoreThanTheyHold) {
     EXPECT_THAT(error_of([&] { parse_msh(head + "$Elements\n1 " + count + " 1 1\n", "m.msh"); }),
                 HasSubstr("cannot hold so many"));
   }
+  EXPECT_THAT(error_of([] {
+                parse_msh("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n1152921504606846976\n", "m.msh");
+              }),
+              AllOf(HasSubstr("1152921504606846976"), HasSubstr("whole number from -2147483648 to")));
   // Binary: 2^60 nodes in one block.
   const auto bytes = [](auto... values) {
     std::string all;
@@ -187,6 +191,18 @@ TEST(Bombs, ConstraintsThatAllMeet) {
   EXPECT_THAT(error_of([] { Simulation(clamped(2000, Mass::consistent), {.memory = 1e8}); }),
               AllOf(StartsWith("2000 general constraints with mass = \"consistent\" need about 16"),
                     HasSubstr("the limit is 100 MB"), HasSubstr("--memory-limit")));
+}
+
+// Few meet, so that a matrix of them would have room.
+TEST(Bombs, MoreConstraintsThanThereIsToHold) {
+  Scene scene = clamped(0, Mass::lumped);
+  scene.mesh = rectangle({1.0, 1.0}, 11, 11);
+  for (int i = 0; i < 100'000; ++i)
+    scene.constraints.push_back(
+        {.terms = {{i % 121, Axis::x, 1.0}, {(i + 1 + i / 121) % 121, Axis::y, 1.0}}, .where = {}});
+  EXPECT_THAT(error_of([&] { Simulation{scene}; }),
+              AllOf(StartsWith("100000 constraints hold at once what can move in "), HasSubstr(" ways only"),
+                    HasSubstr("take those out")));
 }
 
 TEST(Bombs, TheFillOfTheConstraintsFactorIsKnownBeforeItIsMade) {

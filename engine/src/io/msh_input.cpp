@@ -4,6 +4,7 @@
 #include <bit>
 #include <charconv>
 #include <cstring>
+#include <limits>
 
 #include "io/message.hpp"
 #include "rheo/error.hpp"
@@ -114,9 +115,12 @@ T MshInput::number(const char* what) {
   const std::string_view text = token(what);
   T value{};
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const char* const kind = std::is_integral_v<T> ? "whole " : "";
+  if (error == std::errc::result_out_of_range)
+    refuse("{} = {}: a {}number from {} to {} is needed", what, in_quotes(text, 30), kind,
+           std::numeric_limits<T>::lowest(), std::numeric_limits<T>::max());
   if (error != std::errc{} || end != text.data() + text.size()) {
-    refuse("{} where {} is expected: a {}number is needed", in_quotes(text, 30), what,
-           std::is_integral_v<T> ? "whole " : "");
+    refuse("{} where {} is expected: a {}number is needed", in_quotes(text, 30), what, kind);
   }
   return value;
 }
