@@ -8,6 +8,7 @@
 #include <mutex>
 #include <set>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "kernels/flush_denormals.hpp"
@@ -35,13 +36,40 @@ TEST(BlockTeam, VisitsEveryBlockOnceASweepAfterAllThatItReads) {
       for (int repeat = 0; repeat < 20; ++repeat) {
         std::vector<std::atomic<int>> visits(sweeps * blocks);
         std::atomic<int> too_early = 0;
-        team.chain(sweeps, [&](std::size_t sweep, std::size_t block) {
+        team.chain(sweeps, [&](const BlockVisit& at) {
+          const auto [sweep, block] = std::pair(at.sweep, at.block);
           for (std::size_t b = block > 0 ? block - 1 : 0; sweep > 0 && b < std::min(block + 2, blocks); ++b)
             too_early += visits[(sweep - 1) * blocks + b] != 1;
           ++visits[sweep * blocks + block];
         });
         EXPECT_EQ(too_early, 0);
         for (const auto& count : visits) ASSERT_EQ(count, 1);
+      }
+    }
+  }
+}
+
+// What a kernel that passes something from block to block goes by.
+TEST(BlockTeam, SaysWhereAStretchBeginsWhichWayItGoesAndWhereItEnds) {
+  for (const std::vector<std::int32_t>& ends : meshes) {
+    for (int threads : {1, 2, 3, 4}) {
+      BlockTeam team(ends, threads);
+      for (int repeat = 0; repeat < 8; ++repeat) {
+        std::vector<BlockVisit> visits(ends.size());
+        team.chain(1, [&](const BlockVisit& at) { visits[at.block] = at; });
+        // From its lowest block to its highest a stretch goes one way; its ends are where the first and last
+        // are.
+        bool inside = false;
+        for (std::size_t block = 0; block < visits.size(); ++block) {
+          const BlockVisit& at = visits[block];
+          const bool up = at.way == BlockVisit::Way::up;
+          EXPECT_EQ(up ? at.first : at.last, !inside) << block;
+          if (inside) {
+            EXPECT_EQ(at.way, visits[block - 1].way) << block;
+          }
+          inside = !(up ? at.last : at.first);
+        }
+        EXPECT_FALSE(inside);
       }
     }
   }
@@ -54,7 +82,7 @@ TEST(BlockTeam, TakesDenormalsForZeroOnEveryThreadAndNowhereElse) {
   std::mutex mutex;
   std::set<std::thread::id> threads;
   std::atomic<int> kept = 0;
-  const auto look = [&](std::size_t, std::size_t) {
+  const auto look = [&](const BlockVisit&) {
     kept += !FlushDenormals::is_on();
     const std::lock_guard lock(mutex);
     threads.insert(std::this_thread::get_id());

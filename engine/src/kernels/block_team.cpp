@@ -142,6 +142,7 @@ void BlockTeam::run_stretch(std::size_t member, std::size_t team, std::size_t sw
   const std::size_t length = end - begin;
   // Of two neighbours the first, third, ... goes down from the edge that they share, the other up.
   const bool down = team > 1 && member % 2 == 0;
+  const auto way = down ? BlockVisit::Way::down : BlockVisit::Way::up;
   const std::size_t none = team;
   const std::size_t above = member + 1 < team ? member + 1 : none;
   const std::size_t below = member > 0 ? member - 1 : none;
@@ -153,7 +154,7 @@ void BlockTeam::run_stretch(std::size_t member, std::size_t team, std::size_t sw
       if (k >= length) continue;
       if (k == 0 && at_start != none) wait_for(progress_[at_start].first, sweep);
       if (k + 1 == length && at_end != none) wait_for(progress_[at_end].last, sweep);
-      call(context, sweep, down ? end - 1 - k : begin + k);
+      call(context, {sweep, down ? end - 1 - k : begin + k, way, k == 0, k + 1 == length});
       if (k == 0) progress_[member].first.store(sweep + 1, std::memory_order_release);
       if (k + 1 == length) progress_[member].last.store(sweep + 1, std::memory_order_release);
     }

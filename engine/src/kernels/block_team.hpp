@@ -33,6 +33,16 @@ int usable_processors();
 // As many threads as are asked for; 0: as many as pay for a mesh of so many nodes.
 int paying_threads(int nodes, int asked);
 
+// A thread's turn at a block.
+struct BlockVisit {
+  enum class Way { up, down };
+  std::size_t sweep = 0;
+  std::size_t block = 0;
+  Way way = Way::up;   // of the thread through its stretch of blocks
+  bool first = false;  // of the stretch, in this way
+  bool last = false;
+};
+
 class BlockTeam {
  public:
   // `ends`: one past each block's last node, rising (node_blocks.hpp). Threads' stretches have about as many
@@ -41,21 +51,19 @@ class BlockTeam {
 
   int threads() const { return threads_; }
 
-  // visit(sweep, block) for all sweeps and blocks, in such an order; for a single sweep in any. Where
+  // visit(BlockVisit) for all sweeps and blocks, in such an order; for a single sweep in any. Where
   // threads() is 1, every sweep visits the blocks in rising order, and at each of them after the sweep before
   // has visited the next.
   template <class Visit>
   void chain(std::size_t sweeps, const Visit& visit) {
     run(
         sweeps,
-        [](const void* context, std::size_t sweep, std::size_t block) {
-          (*static_cast<const Visit*>(context))(sweep, block);
-        },
+        [](const void* context, const BlockVisit& one) { (*static_cast<const Visit*>(context))(one); },
         &visit);
   }
 
  private:
-  using Call = void (*)(const void* context, std::size_t sweep, std::size_t block);
+  using Call = void (*)(const void* context, const BlockVisit& visit);
   // How many sweeps have visited the first and the last block of a thread's stretch, in its own direction.
   struct alignas(64) Progress {
     std::atomic<std::size_t> first{0}, last{0};

@@ -135,8 +135,7 @@ void EdgeBody::chain(std::span<const Sweep> sweeps) {
   for (const Sweep& sweep : sweeps) {
     if (elastic_ || sweep.result == Result::step) ++counters_.displacement_updates;
   }
-  team_.chain(sweeps.size(),
-              [&](std::size_t sweep, std::size_t block) { sweep_block(sweeps[sweep], block); });
+  team_.chain(sweeps.size(), [&](const BlockVisit& at) { sweep_block(sweeps[at.sweep], at.block); });
 }
 
 EdgeBody::Sums EdgeBody::sums_of(const EdgeForm::Block& block) const {
@@ -242,7 +241,7 @@ EnergySample EdgeBody::sample(double t) {
   const Material& material = model_.material();
   const double* xp = state_.data() + p();
   const double* xv = state_.data() + v();
-  team_.chain(1, [&](std::size_t, std::size_t block) { sums_[block] = sums_of(form_.blocks[block]); });
+  team_.chain(1, [&](const BlockVisit& at) { sums_[at.block] = sums_of(form_.blocks[at.block]); });
   EdgeForms all = boundary_forms(form_, xp, row(), xv);  // combined: of q, with K's factor, as lambda's
   double kinetic = 0.0;
   for (const Sums& sums : sums_) {

@@ -9,8 +9,6 @@
 namespace rheo {
 namespace {
 
-constexpr std::int32_t shared_block = 4;  // bandwidths: shorter ones compute too many triangles twice
-
 std::vector<double> twice(const std::vector<double>& by_node) {
   std::vector<double> result;
   result.reserve(2 * by_node.size());
@@ -53,21 +51,16 @@ std::vector<std::int32_t> numbers_in_patches(const Model& model, const ElementFo
   return numbers;
 }
 
-std::vector<ElementForm::Block> element_blocks(const ElementForm& form, int threads) {
-  const bool shared = paying_threads(form.nodes, threads) > 1;
-  return form.blocks(std::max(smallest_block, shared ? shared_block * form.bandwidth : 0));
-}
-
 ElementBody::ElementBody(const Model& model, const ElementForce& force, int threads)
     : Body(model, 0.0),
       element_force_(force),
       form_(force.form()),
-      blocks_(element_blocks(form_, threads)),
+      blocks_(form_.blocks(smallest_block)),
       team_(block_ends(blocks_), paying_threads(form_.nodes, threads)),
       mass_(twice(form_.node_mass)),
       terms_(mass_, form_.kernel_node, block_ends(blocks_)),
-      stretches_(form_.blocks(smallest_block)),
-      stretch_team_(block_ends(stretches_), team_.threads()) {
+      force_sums_(force, blocks_, team_.threads()),
+      sums_(blocks_.size() * form_.materials.size()) {
   const auto n = static_cast<std::size_t>(form_.nodes);
   const auto s = static_cast<std::size_t>(form_.slots);
   state_.assign(4 * s + 4 * n, 0.0);
@@ -78,8 +71,6 @@ ElementBody::ElementBody(const Model& model, const ElementForce& force, int thre
   branches_.resize(form_.materials.size());
   for (const BranchPart& part : model.layout.branches)
     (part.modulus == Modulus::lambda ? branches_[part.region].lambda : branches_[part.region].mu) = &part;
-  forces_.assign(team_.threads() > 1 ? 3 : 1, std::vector<double>(2 * s, 0.0));
-  sums_.resize(stretches_.size() * form_.materials.size());
 }
 
 // visit(kernel's number, mesh's number) for all of the state.
@@ -132,26 +123,13 @@ void ElementBody::chain(std::span<const Sweep> sweeps) {
   for (const Sweep& sweep : sweeps) {
     if (sweep.result == Result::step) ++counters_.displacement_updates;
   }
-  team_.chain(sweeps.size(),
-              [&](std::size_t sweep, std::size_t block) { sweep_block(sweeps[sweep], block); });
+  team_.chain(sweeps.size(), [&](const BlockVisit& at) { sweep_block(sweeps[at.sweep], at); });
 }
 
-// A node's force is the sum over its triangles in their order, in both of the ways: those of the block before
-// come first.
-void ElementBody::sweep_block(const Sweep& sweep, std::size_t block) {
-  const ElementForm::Block& b = blocks_[block];
+void ElementBody::sweep_block(const Sweep& sweep, const BlockVisit& visit) {
+  const ElementForm::Block& b = blocks_[visit.block];
   const double* x_p = sweep.x.data() + p();
-  double* force = forces_[block % forces_.size()].data();
-  if (forces_.size() > 1) {
-    const auto begin =
-        static_cast<std::size_t>(form_.slot_begin[blocks_[block > 0 ? block - 1 : 0].first_node]);
-    const auto end = static_cast<std::size_t>(
-        form_.slot_begin[blocks_[std::min(block + 1, blocks_.size() - 1)].last_node]);
-    std::fill(force + 2 * begin, force + 2 * end, 0.0);
-    element_force_.sweep().add_forces(form_, x_p, force, b.reaching, b.first_triangle);
-  }
-  element_force_.sweep().add_forces(form_, x_p, force, b.first_triangle, b.last_triangle);
-
+  double* const force = force_sums_.of_block(x_p, visit);
   for (std::int32_t r = b.first_run; r < b.last_run; ++r) {
     const ElementForm::Run& run = form_.runs[r];
     const std::int32_t first = std::max(run.first, b.first_node);
@@ -174,7 +152,7 @@ void ElementBody::sweep_block(const Sweep& sweep, std::size_t block) {
       element_force_.sweep().advance(stretch, materials_[run.region], sweep.h);
     }
   }
-  terms_.add(*this, sweep.h, sweep.forcing, sweep.out.data() + v(), block);
+  terms_.add(*this, sweep.h, sweep.forcing, sweep.out.data() + v(), visit.block);
 }
 
 void ElementBody::advance_interface(const ElementForm::Run& run, double h, const SweepArrays& a,
@@ -241,10 +219,10 @@ NodeForce ElementBody::force_at(std::size_t node) const {
 }
 
 // w_l^T J_lambda w_l = sum of div^2, w_m^T J_mu w_m = sum of 2 xx^2 + 2 yy^2 + (xy + yx)^2, by triangle.
-void ElementBody::add_sums(const ElementForm::Block& stretch, std::span<Sums> by_region) const {
+void ElementBody::add_sums(const ElementForm::Block& block, std::span<Sums> by_region) const {
   const double* xp = state_.data() + p();
   const double* xv = state_.data() + v();
-  for (std::int64_t e = stretch.first_triangle; e < stretch.last_triangle; ++e) {
+  for (std::int64_t e = block.first_triangle; e < block.last_triangle; ++e) {
     const auto& q = form_.gradient[e];
     double x[6] = {}, y[6] = {};  // d/dx and d/dy of l, m, v
     for (std::size_t corner : {1u, 2u}) {
@@ -272,8 +250,8 @@ EnergySample ElementBody::sample(double t) {
   const double* xv = state_.data() + v();
   const std::size_t regions = form_.materials.size();
   std::fill(sums_.begin(), sums_.end(), Sums{});
-  stretch_team_.chain(1, [&](std::size_t, std::size_t k) {
-    add_sums(stretches_[k], std::span(sums_).subspan(k * regions, regions));
+  team_.chain(1, [&](const BlockVisit& at) {
+    add_sums(blocks_[at.block], std::span(sums_).subspan(at.block * regions, regions));
   });
 
   EnergySample e;

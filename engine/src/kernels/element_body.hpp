@@ -5,10 +5,8 @@
 //   w_lambda' = lambda_ela v - (lambda_ela / lambda_vis) w_lambda, w_mu' likewise, at each slot by its
 //   region's material
 //
-// Threads  blocks of nodes by several threads (block_team.hpp): the same bits for any number. One thread
-//          passes a block's forces on to the next one; several compute those of the triangles between two
-//          blocks twice instead.
-// Not here consistent mass, general constraints: AssembledBody
+// Threads  blocks of nodes by several threads (block_team.hpp, element_sums.hpp): the same bits for any
+// number Not here consistent mass, general constraints: AssembledBody
 #pragma once
 
 #include <array>
@@ -17,12 +15,10 @@
 #include "body.hpp"
 #include "kernels/block_team.hpp"
 #include "kernels/element_force.hpp"
+#include "kernels/element_sums.hpp"
 #include "kernels/nodal_terms.hpp"
 
 namespace rheo {
-
-// The blocks that sweeps visit; threads: as asked for (block_team.hpp).
-std::vector<ElementForm::Block> element_blocks(const ElementForm& form, int threads);
 
 // By slot: its node's number in its region's patch.
 std::vector<std::int32_t> numbers_in_patches(const Model& model, const ElementForm& form);
@@ -57,17 +53,17 @@ class ElementBody final : public Body {
   void for_each_number(const Visit& visit) const;
 
   // One sweep over one block.
-  void sweep_block(const Sweep& sweep, std::size_t block);
+  void sweep_block(const Sweep& sweep, const BlockVisit& visit);
   // The nodes' part of it, for one node with several slots.
   void advance_interface(const ElementForm::Run& run, double h, const SweepArrays& arrays, double* force);
 
   NodeForce force_at(std::size_t node) const;
 
-  // Sums over a stretch's triangles of one region.
+  // Sums over a block's triangles of one region.
   struct Sums {
     double ll = 0.0, mm = 0.0, vl = 0.0, vm = 0.0;  // x^T J w: w_l with itself, w_m likewise, v with both
   };
-  void add_sums(const ElementForm::Block& stretch, std::span<Sums> by_region) const;
+  void add_sums(const ElementForm::Block& block, std::span<Sums> by_region) const;
 
   const ElementForce& element_force_;
   const ElementForm& form_;
@@ -83,12 +79,8 @@ class ElementBody final : public Body {
   std::vector<std::int32_t> number_in_patch_;  // by slot
   std::vector<double> mass_;                   // n x 2
   NodalTerms terms_;
-  // F by slot while a sweep adds it up, zero otherwise. Several threads: one for each block number modulo 3,
-  // because a block's triangles reach into the blocks beside it.
-  std::vector<std::vector<double>> forces_;
-  // Of energies, by stretch and region: added up in their order, which the number of threads does not change.
-  std::vector<ElementForm::Block> stretches_;
-  BlockTeam stretch_team_;
+  ElementSums force_sums_;
+  // Of energies, by block and region: added up in their order, which the number of threads does not change.
   std::vector<Sums> sums_;
 };
 

@@ -173,19 +173,19 @@ void ParallelBody::impose_prescribed(double t) {
   imposed_ = true;
 }
 
-void ParallelBody::sweep_block(const Sweep& sweep, std::size_t block) {
+void ParallelBody::sweep_block(const Sweep& sweep, const BlockVisit& visit) {
   const double h = sweep.h;
   const double *x = sweep.x.data(), *base = sweep.base.data();
   double* out = sweep.out.data();
   const bool moves_u = sweep.result == Result::step || elastic_;
   const SweepArrays arrays{x + p(),   x + v(),   base + p(), base + v(),
                            out + p(), out + v(), base + u(), moves_u ? out + u() : nullptr};
-  sweep_force(arrays, h, block);
-  terms_.add(*this, h, sweep.forcing, out + v(), block);
+  sweep_force(arrays, h, visit);
+  terms_.add(*this, h, sweep.forcing, out + v(), visit.block);
 
   // (Where nothing is elastic u counts for nothing, but must be numbers.)
   const double* u_now = (moves_u ? out : base) + u();
-  for (std::size_t r = run_begin_[block]; r < run_begin_[block + 1]; ++r) {
+  for (std::size_t r = run_begin_[visit.block]; r < run_begin_[visit.block + 1]; ++r) {
     const SlotRun& run = runs_[r];
     double* out_p = out + p() + 4 * run.slot;
     rows_.begin(part_[run.region], u_now + 2 * run.node, out + v() + 2 * run.node, out_p, run.count);
@@ -212,8 +212,7 @@ void ParallelBody::chain(std::span<const Sweep> sweeps) {
   for (const Sweep& sweep : sweeps) {
     if (elastic_ || sweep.result == Result::step) ++counters_.displacement_updates;
   }
-  team_.chain(sweeps.size(),
-              [&](std::size_t sweep, std::size_t block) { sweep_block(sweeps[sweep], block); });
+  team_.chain(sweeps.size(), [&](const BlockVisit& at) { sweep_block(sweeps[at.sweep], at); });
 }
 
 void ParallelBody::find_rate(double t) {

@@ -65,9 +65,9 @@ class ParallelBody : public Body {
     double ll = 0.0, mm = 0.0, xl = 0.0, xm = 0.0;
   };
 
-  // Of a block's nodes, from whole arrays: out_v = base_v - h F(x_p) / m, and out_u = base_u + h x_v unless
-  // it is null; out_p may come to be anything.
-  virtual void sweep_force(const SweepArrays& arrays, double h, std::size_t block) = 0;
+  // Of the visited block's nodes, from whole arrays: out_v = base_v - h F(x_p) / m, and out_u = base_u + h
+  // x_v unless it is null; out_p may come to be anything.
+  virtual void sweep_force(const SweepArrays& arrays, double h, const BlockVisit& visit) = 0;
   // By region. stride: 4 for rows w = (l, m) by slot, 2 for one vector by node that is both; x: n x 2.
   virtual void forms_of(const double* w, std::size_t stride, const double* x, std::span<Forms> forms) = 0;
   // F of rows p at one node.
@@ -95,7 +95,7 @@ class ParallelBody : public Body {
 
   void make_branches();
   void make_parts();
-  void sweep_block(const Sweep& sweep, std::size_t block);
+  void sweep_block(const Sweep& sweep, const BlockVisit& visit);
   // p of slots in a row from the other parts of y.
   void renew_p(std::span<double> y, const SlotRun& run) const;
   void renew_p_of_node(std::span<double> y, std::size_t node) const;

@@ -32,7 +32,8 @@ ParallelEdgeBody::ParallelEdgeBody(const Model& model, const EdgeForce& force, i
       [](const EdgeForm::Corner& corner) { return static_cast<std::size_t>(corner.node); }, corner_begin_);
 }
 
-void ParallelEdgeBody::sweep_force(const SweepArrays& arrays, double h, std::size_t block) {
+void ParallelEdgeBody::sweep_force(const SweepArrays& arrays, double h, const BlockVisit& visit) {
+  const std::size_t block = visit.block;
   const EdgeForm::Block& b = form_.blocks[block];
   edge_force_.sweep()(form_, inverse_mass(), SweepMaterial{}, h, arrays, b.first_run, b.last_run);
   edge_force_.subtract_boundary(h, inverse_mass(), arrays.x_p, arrays.out_v, corner_begin_[block],
@@ -42,9 +43,9 @@ void ParallelEdgeBody::sweep_force(const SweepArrays& arrays, double h, std::siz
 void ParallelEdgeBody::forms_of(const double* w, std::size_t stride, const double* x,
                                 std::span<Forms> forms) {
   const EdgeFormsFunction edges = stride == 4 ? edge_force_.forms().rows : edge_force_.forms().both;
-  team().chain(1, [&](std::size_t, std::size_t block) {
-    const EdgeForm::Block& b = form_.blocks[block];
-    sums_[block] = edges(form_, w, x, b.first_run, b.last_run);
+  team().chain(1, [&](const BlockVisit& at) {
+    const EdgeForm::Block& b = form_.blocks[at.block];
+    sums_[at.block] = edges(form_, w, x, b.first_run, b.last_run);
   });
   EdgeForms all = boundary_forms(form_, w, stride, x);
   for (const EdgeForms& sums : sums_) all += sums;

@@ -16,7 +16,7 @@ class ParallelEdgeBody final : public ParallelBody {
   std::string_view kernel() const override { return "edge"; }
 
  protected:
-  void sweep_force(const SweepArrays& arrays, double h, std::size_t block) override;
+  void sweep_force(const SweepArrays& arrays, double h, const BlockVisit& visit) override;
   void forms_of(const double* w, std::size_t stride, const double* x, std::span<Forms> forms) override;
   std::array<double, 2> force_of(const double* rows, std::size_t node) const override;
 

@@ -34,32 +34,18 @@ std::vector<SlotRun> runs_of(const ElementForm& form, const std::vector<ElementF
 
 ParallelElementBody::ParallelElementBody(const Model& model, const ElementForce& force, int threads)
     : ParallelBody(model, force.form().mesh_node, force.form().kernel_node,
-                   block_ends(element_blocks(force.form(), threads)),
+                   block_ends(force.form().blocks(smallest_block)),
                    paying_threads(force.form().nodes, threads),
-                   runs_of(force.form(), element_blocks(force.form(), threads))),
+                   runs_of(force.form(), force.form().blocks(smallest_block))),
       element_force_(force),
       form_(force.form()),
-      blocks_(element_blocks(form_, threads)),
-      stretches_(form_.blocks(smallest_block)),
-      stretch_team_(block_ends(stretches_), team().threads()),
-      sums_(stretches_.size() * form_.materials.size()) {
-  forces_.assign(team().threads() > 1 ? 3 : 1, std::vector<double>(2 * slots(), 0.0));
-}
+      blocks_(form_.blocks(smallest_block)),
+      force_sums_(force, blocks_, team().threads()),
+      sums_(blocks_.size() * form_.materials.size()) {}
 
-// A node's force is the sum over its triangles in their order, in both of the ways: those of the block before
-// come first.
-void ParallelElementBody::sweep_force(const SweepArrays& a, double h, std::size_t block) {
-  const ElementForm::Block& b = blocks_[block];
-  double* force = forces_[block % forces_.size()].data();
-  if (forces_.size() > 1) {
-    const auto begin = static_cast<std::size_t>(
-        form_.slot_begin[static_cast<std::size_t>(blocks_[block > 0 ? block - 1 : 0].first_node)]);
-    const auto end = static_cast<std::size_t>(form_.slot_begin[static_cast<std::size_t>(
-        blocks_[std::min(block + 1, blocks_.size() - 1)].last_node)]);
-    std::fill(force + 2 * begin, force + 2 * end, 0.0);
-    element_force_.sweep().add_forces(form_, a.x_p, force, b.reaching, b.first_triangle);
-  }
-  element_force_.sweep().add_forces(form_, a.x_p, force, b.first_triangle, b.last_triangle);
+void ParallelElementBody::sweep_force(const SweepArrays& a, double h, const BlockVisit& visit) {
+  const ElementForm::Block& b = blocks_[visit.block];
+  double* force = force_sums_.of_block(a.x_p, visit);
   for (std::int32_t r = b.first_run; r < b.last_run; ++r) {
     const ElementForm::Run& run = form_.runs[r];
     const std::int32_t first = std::max(run.first, b.first_node);
@@ -101,11 +87,12 @@ void ParallelElementBody::forms_of(const double* w, std::size_t stride, const do
   const std::size_t mu = stride == 4 ? 2 : 0;
   const std::size_t regions = forms.size();
   std::fill(sums_.begin(), sums_.end(), Forms{});
-  stretch_team_.chain(1, [&](std::size_t, std::size_t block) {
-    Forms* const of_region = sums_.data() + block * regions;
+  team().chain(1, [&](const BlockVisit& at) {
+    const ElementForm::Block& block = blocks_[at.block];
+    Forms* const of_region = sums_.data() + at.block * regions;
     Forms sums;  // of the region that the triangles are of
     std::size_t region = 0;
-    for (std::int64_t e = stretches_[block].first_triangle; e < stretches_[block].last_triangle; ++e) {
+    for (std::int64_t e = block.first_triangle; e < block.last_triangle; ++e) {
       const auto& q = form_.gradient[e];
       double dx[6] = {}, dy[6] = {};  // d/dx and d/dy of l, m, x
       const auto place = [&](std::size_t corner) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kernels/element_force.hpp"
+#include "kernels/element_sums.hpp"
 #include "kernels/parallel_body.hpp"
 
 namespace rheo {
@@ -18,7 +19,7 @@ class ParallelElementBody final : public ParallelBody {
   std::string_view kernel() const override { return "element"; }
 
  protected:
-  void sweep_force(const SweepArrays& arrays, double h, std::size_t block) override;
+  void sweep_force(const SweepArrays& arrays, double h, const BlockVisit& visit) override;
   void forms_of(const double* w, std::size_t stride, const double* x, std::span<Forms> forms) override;
   std::array<double, 2> force_of(const double* rows, std::size_t node) const override;
 
@@ -29,13 +30,9 @@ class ParallelElementBody final : public ParallelBody {
   const ElementForce& element_force_;
   const ElementForm& form_;
   std::vector<ElementForm::Block> blocks_;
-  // F by slot while a sweep adds it up, zero otherwise; several threads: by block number modulo 3, because a
-  // block's triangles reach into the blocks beside it.
-  std::vector<std::vector<double>> forces_;
-  // Of energies, by stretch: added up in their order, which the number of threads does not change.
-  std::vector<ElementForm::Block> stretches_;
-  BlockTeam stretch_team_;
-  std::vector<Forms> sums_;  // by stretch and region
+  ElementSums force_sums_;
+  // Of energies, by block and region: added up in their order, which the number of threads does not change.
+  std::vector<Forms> sums_;
 };
 
 }  // namespace rheo
