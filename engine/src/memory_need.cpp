@@ -17,7 +17,9 @@ namespace rheo {
 namespace {
 
 constexpr double branch_bytes = 128.0;  // w_lambda and w_mu, x and y, in the state and in three buffers
-constexpr double pair_bytes = 40.0;     // as a triplet, and in the matrix and its transpose
+// What any machine has: looking up how much it is would take longer than making a small body.
+constexpr double always_there = 16e6;
+constexpr double pair_bytes = 40.0;  // as a triplet, and in the matrix and its transpose
 
 // Of each material: how many nodes its triangles touch.
 std::vector<double> nodes_by_material(const Scene& scene) {
@@ -111,6 +113,7 @@ MemoryNeed memory_need(const Scene& scene) {
 
 void require_memory(const Scene& scene, double asked, double also, const std::string& remedy) {
   const MemoryNeed need = memory_need(scene);
+  if (asked <= 0.0 && need.total() + also <= always_there) return;
   const MemoryLimit limit = memory_limit(asked);
   if (need.total() + also <= limit.bytes) return;
   const bool consistent = scene.material.mass == Mass::consistent;

@@ -66,8 +66,10 @@ SparseMatrix connection_matrix(const Mesh& mesh, const Patch& patch, Modulus mod
 
 // Largest eigenvalue of M_e^-1 K_e. B annihilates translations, so that M_e^-1 acts as 3 / (density h T)
 // (lumped) or 12 / (density h T) (consistent), and the eigenvalues are those of the 3 x 3 product P = D G, G
-// = B B^T: real, by the trigonometric solution of the characteristic cubic.
-double element_eigenvalue(const Mesh& mesh, int e, const Moduli& moduli, const Material& material) {
+// = B B^T: real, by the trigonometric solution of the characteristic cubic. Where that is at most `known`,
+// something that is at most `known`: most triangles of a mesh need no more than a bound.
+double element_eigenvalue(const Mesh& mesh, int e, const Moduli& moduli, const Material& material,
+                          double known) {
   const auto q = corners(mesh, mesh.triangles[e]);
   const double la = moduli.lambda;
   const double mu = moduli.mu;
@@ -75,7 +77,8 @@ double element_eigenvalue(const Mesh& mesh, int e, const Moduli& moduli, const M
   if (largest == 0.0) return 0.0;
   // Dimensionless: tiny and huge triangles and moduli lose nothing.
   double longest = 0.0;
-  for (const Corner& corner : q) longest = std::max(longest, std::hypot(corner.b, corner.c));
+  for (const Corner& corner : q) longest = std::max(longest, corner.b * corner.b + corner.c * corner.c);
+  longest = std::sqrt(longest);
   double bb = 0.0, bc = 0.0, cc = 0.0;
   for (const Corner& corner : q) {
     bb += corner.b * corner.b;
@@ -94,14 +97,13 @@ double element_eigenvalue(const Mesh& mesh, int e, const Moduli& moduli, const M
   const double mean = p.trace() / 3;
   const Eigen::Matrix3d shifted = p - mean * Eigen::Matrix3d::Identity();
   const double spread = std::sqrt(std::max(0.0, (shifted * shifted).trace() / 6));
-  double top = mean;
-  if (spread > 0.0) {
-    const double half = shifted.determinant() / (2 * spread * spread * spread);
-    top += 2 * spread * std::cos(std::acos(std::clamp(half, -1.0, 1.0)) / 3);
-  }
   const double scale = longest / (2.0 * signed_area(mesh, e));
   const double factor = material.mass == Mass::lumped ? 3.0 : 12.0;
-  return top * scale * scale * factor * largest / material.density;
+  const double unit = scale * scale * factor * largest / material.density;
+  const double bound = (mean + 2 * spread) * unit;  // no cosine is larger than 1
+  if (bound <= known || spread == 0.0) return bound;
+  const double half = shifted.determinant() / (2 * spread * spread * spread);
+  return (mean + 2 * spread * std::cos(std::acos(std::clamp(half, -1.0, 1.0)) / 3)) * unit;
 }
 
 std::vector<Patch> patches_of(const Mesh& mesh, const Regions& regions) {
@@ -213,8 +215,8 @@ Model::Model(const Mesh& mesh, const Regions& regions, Assembly assembly)
         for (int j = 0; j < 3; ++j) entries.emplace_back(t[i], t[j], triangle_mass / (i == j ? 6 : 12));
       }
     }
-    eigenvalue = std::max(eigenvalue, element_eigenvalue(mesh, e, springs[region], m));
-    element_viscous = std::max(element_viscous, element_eigenvalue(mesh, e, m.viscous, m));
+    eigenvalue = std::max(eigenvalue, element_eigenvalue(mesh, e, springs[region], m, eigenvalue));
+    element_viscous = std::max(element_viscous, element_eigenvalue(mesh, e, m.viscous, m, element_viscous));
   }
   element_omega = std::sqrt(eigenvalue);
   if (consistent) {

@@ -29,20 +29,24 @@ double growth(std::complex<double> z) {
 double rk4_radius(std::complex<double> d) {
   // On the imaginary axis |R(iy)|^2 = 1 - y^6/72 + y^8/576 exactly; rounding must not decide there.
   if (-d.real() < 1e-7) return 2.0 * std::numbers::sqrt2;
-  double inside = 0.0;
-  double outside = 0.0;
-  for (double r = 0.1; r < 4.0; r += 0.1) {
-    if (growth(r * d) > 0.0) {
-      outside = r;
-      break;
-    }
-    inside = r;
-  }
-  for (int i = 0; i < 50; ++i) {
+  double inside = rk4_inner_radius;
+  double outside = inside;
+  while (growth((outside += 0.1) * d) <= 0.0) inside = outside;
+  for (int i = 0; i < 40; ++i) {  // to 1e-13
     const double middle = 0.5 * (inside + outside);
     (growth(middle * d) > 0.0 ? outside : inside) = middle;
   }
   return inside;
+}
+
+// Whether a step of this length may be too long for s; true where that is left to stable_step_of.
+// (Within the left half plane the region's rays are whole: what is stable stays so with a shorter step.)
+bool may_be_too_long(double step, std::complex<double> s, IntegratorKind integrator) {
+  if (integrator != IntegratorKind::rk4 || !std::isfinite(step)) return true;
+  const double size = std::abs(s);
+  if (size * step < rk4_inner_radius) return false;
+  const bool on_axis = -s.real() < 1e-7 * size;  // or beyond it: rk4_radius
+  return on_axis || growth(step * s) > 0.0;
 }
 
 // Roots of s (s + p) (s + q) + W2 [a (s + q) + (1 - a) (s + p)] = 0: the modes with Rayleigh quotients a W2,
@@ -177,19 +181,17 @@ class ParallelModes {
     return {ratio, b, std::sqrt(b * spring), b * dashpot};
   }
 
-  bool matters(std::complex<double> s) const {
-    return integrator_ != IntegratorKind::rk4 || !(std::abs(s) * step_ < rk4_inner_radius);
-  }
   // No root is larger than the numerical range.
   bool can_not_limit(const Mode& mode) const {
-    return !matters(std::max(fastest_rate_, mode.damping) + mode.omega);
+    const double largest = std::max(fastest_rate_, mode.damping) + mode.omega;
+    return integrator_ == IntegratorKind::rk4 && largest * step_ < rk4_inner_radius;
   }
 
   // Whether the mode's roots want a shorter step.
   bool include(const Mode& mode) {
     const double before = step_;
     const auto take = [&](std::complex<double> s) {
-      if (matters(s)) step_ = std::min(step_, stable_step_of(s, integrator_));
+      if (may_be_too_long(step_, s, integrator_)) step_ = std::min(step_, stable_step_of(s, integrator_));
     };
     const double size = std::max(fastest_rate_, mode.damping);
     if (size < 1e-8 * mode.omega) {
@@ -280,8 +282,8 @@ class FreeModes {
 
  private:
   void take(std::complex<double> s) {
-    if (std::abs(s) * step_ < rk4_inner_radius) return;
-    step_ = std::min(step_, stable_step_of(s, IntegratorKind::rk4));
+    if (may_be_too_long(step_, s, IntegratorKind::rk4))
+      step_ = std::min(step_, stable_step_of(s, IntegratorKind::rk4));
   }
 
   void pair(double p, double q) {
@@ -331,8 +333,7 @@ double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
   const bool parallel =
       spectrum.several_materials || !spectrum.relaxations.empty() || spectrum.viscous_max > 0.0;
   const auto include = [&](std::complex<double> s) {
-    if (rk4 && std::abs(s) * step < rk4_inner_radius) return;  // stable as it is
-    step = std::min(step, stable_step_of(s, integrator));
+    if (may_be_too_long(step, s, integrator)) step = std::min(step, stable_step_of(s, integrator));
   };
 
   const double p = spectrum.lambda_on ? spectrum.lambda_rate : 0.0;
