@@ -7,7 +7,7 @@
 //   included integrate/accuracy_rk4/<accuracy>/<triangles>       likewise with integrator = "rk4"
 //
 // Counters: error as [time] accuracy means it (against a run of the exponential integrator at 1e-13), force
-// evaluations, microseconds an evaluation, the hash of the state at the last output. Without energies.
+// evaluations, time an evaluation. Label: the hash of the state at the last output. Without energies.
 // Seconds: of a run from its start to its end, building the simulation apart except where the choice is part
 // of it. Compare medians of a machine that does nothing else:
 // --benchmark_repetitions=5 --benchmark_enable_random_interleaving=true.
@@ -16,7 +16,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -28,6 +27,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/counters.hpp"
 #include "rheo/shapes.hpp"
 #include "rheo/simulation.hpp"
 
@@ -68,19 +68,6 @@ States run(rheo::Simulation& simulation) {
         {copy(simulation.u()), copy(simulation.v()), copy(simulation.w_lambda()), copy(simulation.w_mu())});
   }
   return states;
-}
-
-// FNV-1a over the bits of the state at the last output.
-std::uint32_t hash_of(const std::array<std::vector<double>, 4>& state) {
-  std::uint32_t hash = 2166136261u;
-  for (const std::vector<double>& block : state) {
-    for (const double x : block) {
-      const auto bits = std::bit_cast<std::uint64_t>(x);
-      for (int shift = 0; shift < 64; shift += 8)
-        hash = (hash ^ static_cast<std::uint8_t>(bits >> shift)) * 16777619u;
-    }
-  }
-  return hash;
 }
 
 double error_of(const States& states, const States& exact) {
@@ -138,11 +125,15 @@ void integrate(benchmark::State& state, const rheo::Scene& scene, const Case& c,
     if (simulation.plan()) trials = simulation.plan()->trial_evaluations;
   }
   state.counters["error"] = error_of(states, c.exact);
-  state.counters["hash"] = states.empty() ? 0.0 : hash_of(states.back());
+  bench::StateHash hash;
+  if (!states.empty())
+    for (const std::vector<double>& block : states.back()) hash.add(block);
+  hash.report(state);
   state.counters["evaluations"] = evaluations;
   state.counters["trial_evaluations"] = trials;
-  state.counters["us_per_evaluation"] =
-      1e6 * seconds / static_cast<double>(state.iterations()) / (evaluations + trials);
+  state.counters["time/evaluation"] =
+      benchmark::Counter((evaluations + trials) * static_cast<double>(state.iterations()) / seconds,
+                         benchmark::Counter::kInvert);
 }
 
 void exponential(benchmark::State& state, double tolerance, int triangles) {

@@ -4,7 +4,7 @@
 //   integrate/implicit_graded/<steps a frame>  the run, its factor included, construction left out. Counters:
 //   the
 //                                              error at the outputs against a run of 16 steps a frame,
-//                                              factors, steps, the hash of the last state
+//                                              factors, steps; label: the hash of the last state
 //   integrate/rk4_graded                       1,000 steps of RK4 at its stable limit. run_seconds: what all
 //   steps of
 //                                              the run would take at this rate; no shorter RK4 run exists,
@@ -18,10 +18,10 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <bit>
-#include <cmath>
 #include <cstdint>
+#include <utility>
 
+#include "bench/counters.hpp"
 #include "rheo/simulation.hpp"
 #include "support/exact.hpp"
 #include "support/graded.hpp"
@@ -62,16 +62,6 @@ const std::vector<ExactState>& reference() {
   return states;
 }
 
-std::uint32_t hash_of(const Eigen::VectorXd& x) {  // FNV-1a over the bits
-  std::uint32_t hash = 2166136261u;
-  for (const double number : x) {
-    const auto bits = std::bit_cast<std::uint64_t>(number);
-    for (int shift = 0; shift < 64; shift += 8)
-      hash = (hash ^ static_cast<std::uint8_t>(bits >> shift)) * 16777619u;
-  }
-  return hash;
-}
-
 void implicit_graded(benchmark::State& state) {
   const rheo::Scene scene = implicit_scene(state.range(0));
   std::vector<ExactState> states;
@@ -90,7 +80,11 @@ void implicit_graded(benchmark::State& state) {
   state.counters["error"] = rheo::test::run_error(reference(), states);
   state.counters["steps"] = static_cast<double>(counters.steps);
   state.counters["factors"] = static_cast<double>(counters.factors);
-  state.counters["hash"] = hash_of(states.back().u);
+  const ExactState& last = states.back();
+  bench::StateHash hash;
+  for (const auto* block : {&last.u, &last.v, &last.w_lambda, &last.w_mu})
+    hash.add({block->data(), static_cast<std::size_t>(block->size())});
+  hash.report(state);
 }
 
 void rk4_graded(benchmark::State& state) {
@@ -99,21 +93,17 @@ void rk4_graded(benchmark::State& state) {
   scene.time.step = 0.999 * limit;
   rheo::Simulation simulation(scene, {.energies = false});
   constexpr int steps = 1000;
-  std::vector<double> first_u;  // after the first so many, whatever the number of iterations
+  bool first = true;  // the hash is that after so many steps, whatever the number of iterations
   for (auto _ : state) {
     if (simulation.advance(simulation.time() + steps * scene.time.step)) {
       state.SkipWithError("diverged");
       return;
     }
-    if (first_u.empty()) first_u.assign(simulation.u().begin(), simulation.u().end());
+    if (std::exchange(first, false)) bench::StateHash().add(simulation).report(state);
     benchmark::ClobberMemory();
   }
   const double iterations = scene.time.duration / scene.time.step / steps;
-  state.counters["run_seconds"] = benchmark::Counter(
-      1.0 / iterations,
-      benchmark::Counter::kIsRate | benchmark::Counter::kIsIterationInvariant | benchmark::Counter::kInvert);
-  state.counters["hash"] =
-      hash_of(Eigen::Map<const Eigen::VectorXd>(first_u.data(), static_cast<Eigen::Index>(first_u.size())));
+  state.counters["run_seconds"] = bench::seconds_over(1.0 / iterations);
   state.counters["frame/limit"] = 1.0 / scene.time.frame_rate / limit;
 }
 

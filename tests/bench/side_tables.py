@@ -1,5 +1,6 @@
-"""The smaller tables of tables.py: what branches and regions cost, what skipping saves, the implicit integrator on a
-graded mesh, pictures a second, frame times. Each is made from a benchmark's records or by a program of its own.
+"""The smaller tables of tables.py: memory a triangle, what branches and regions cost, what skipping saves, the
+implicit integrator on a graded mesh, pictures a second, frame times. Each is made from a benchmark's records or by a
+program of its own.
 """
 
 import statistics
@@ -7,8 +8,8 @@ import subprocess
 import sys
 
 
-def nanoseconds(records, counter="ns/tri"):
-    return statistics.median(r[counter] for r in records)
+def nanoseconds(records):
+    return 1e9 * statistics.median(r["time/tri"] for r in records)
 
 
 def seconds(records):
@@ -71,9 +72,10 @@ def print_skips(found):
     """With against without, each by the figure it has: ns a triangle and step, us a simulated second, ms a frame."""
 
     def figure(records):
-        for counter, unit, scale in (("ns/tri", "ns a triangle and step", 1.0), ("us/s", "us a simulated second", 1.0)):
+        units = {"time/tri": ("ns a triangle and step", 1e9), "time/s": ("us a simulated second", 1e6)}
+        for counter, (unit, scale) in units.items():
             if counter in records[0]:
-                return nanoseconds(records, counter) * scale, unit
+                return scale * statistics.median(r[counter] for r in records), unit
         return seconds(records) * 1e3, "ms a frame"
 
     records_of = {"/".join(parts_of(name)): records for name, records in found.items()}
@@ -132,6 +134,14 @@ def print_pictures(found):
         if way in rows:
             cells = [f"{rows[way][s]:.0f}" if s in rows[way] else "" for s in subjects]
             print(f"| {title} | " + " | ".join(cells) + " |")
+
+
+def print_memory(program, sizes):
+    """The table of rheo_bench_memory, which prints Markdown itself."""
+    command = [str(program), *sizes]
+    print(f"running {' '.join(command)}", file=sys.stderr)
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
+    print("\n## Memory\n\n" + done.stdout)
 
 
 def print_frames(program, options):

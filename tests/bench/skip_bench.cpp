@@ -14,7 +14,8 @@
 //
 // Colour and upload, with against without: rheo_bench_render, DrawAndReadBack...
 //
-// Counters: ns a triangle and step (rest: microseconds a simulated second).
+// Counters: time a triangle and step; of rest: time a simulated second. Label: the hash of the state after
+// the first, untimed steps; with and without differ by rounding, and by what is said above.
 
 #include <benchmark/benchmark.h>
 
@@ -24,19 +25,16 @@
 #include <functional>
 #include <vector>
 
+#include "bench/counters.hpp"
+#include "bench/step_case.hpp"
 #include "kernels/edge_body.hpp"
 #include "kernels/flush_denormals.hpp"
 #include "rheo/simulation.hpp"
-#include "step_case.hpp"
 
 namespace {
 
 constexpr int triangles = 10000;
-
-void report(benchmark::State& state, double per_iteration) {
-  state.counters["ns/tri"] = benchmark::Counter(
-      1e-9 * per_iteration, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-}
+constexpr int hashed_steps = 8;
 
 // Whole steps of the engine, no output between them.
 void simulate(benchmark::State& state, rheo::Scene scene, bool energies) {
@@ -48,7 +46,9 @@ void simulate(benchmark::State& state, rheo::Scene scene, bool energies) {
   options.energies = energies;
   rheo::Simulation simulation(std::move(scene), options);
   const double length = steps * simulation.step_bound();
-  double t = 0.0;
+  double t = length;
+  if (simulation.advance(t)) state.SkipWithError("diverged");
+  bench::StateHash().add(simulation).report(state);
   for (auto _ : state) {
     t += length;
     if (simulation.advance(t)) {
@@ -56,7 +56,7 @@ void simulate(benchmark::State& state, rheo::Scene scene, bool energies) {
       return;
     }
   }
-  report(state, steps * simulation.scene().mesh.triangle_count());
+  bench::report_time(state, steps * simulation.scene().mesh.triangle_count());
 }
 
 rheo::Scene block() {
@@ -82,8 +82,10 @@ void edge_steps(benchmark::State& state, const rheo::Material& material, const r
   rheo::EdgeBody body(model, force, 1);
   body.enter(c.interval, c.base);
   body.load(c.y);
+  for (int k = 0; k < hashed_steps; ++k) step(body, c.step);
+  bench::StateHash().add(body.state()).report(state);
   for (auto _ : state) step(body, c.step);
-  report(state, c.scene.mesh.triangle_count());
+  bench::report_time(state, c.scene.mesh.triangle_count());
 }
 
 rheo::Material one_rate() {
@@ -148,13 +150,13 @@ void rest(benchmark::State& state, bool moving) {
   rheo::Simulation simulation(std::move(scene), options);
   double t = moving ? 0.02 : 30.0;
   if (simulation.advance(t)) state.SkipWithError("diverged");
+  bench::StateHash().add(simulation).report(state);
   const double length = moving ? 0.01 : 1.0;
   for (auto _ : state) {
     t += length;
     benchmark::DoNotOptimize(simulation.advance(t));
   }
-  state.counters["us/s"] = benchmark::Counter(
-      1e-6 * length, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["time/s"] = bench::seconds_over(length);
 }
 
 enum class Load { constant, changing };
@@ -182,13 +184,13 @@ void loaded(benchmark::State& state, Load load, Bound bound) {
   if (simulation.advance(t)) state.SkipWithError("diverged");
   if (load == Load::constant && simulation.counters().steps_at_rest == 0)
     state.SkipWithError("it does not come to rest");
+  bench::StateHash().add(simulation).report(state);
   const double length = load == Load::constant ? 1.0 : 100.0 * simulation.step_bound();
   for (auto _ : state) {
     t += length;
     benchmark::DoNotOptimize(simulation.advance(t));
   }
-  state.counters["us/s"] = benchmark::Counter(
-      1e-6 * length, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.counters["time/s"] = bench::seconds_over(length);
 }
 
 enum class State { fresh, relaxed };
@@ -258,8 +260,11 @@ void denormals(benchmark::State& state, State size, Denormals way) {
   std::unique_ptr<rheo::FlushDenormals> flush;
   if (way == Denormals::flushed) flush = std::make_unique<rheo::FlushDenormals>();
   const auto rk4 = rheo::make_integrator(rheo::IntegratorKind::rk4, body.size());
-  for (auto _ : state) rk4->step(body, 0.0, slow.step, body.state(), {});
-  report(state, c.scene.mesh.triangle_count());
+  const auto step = [&] { rk4->step(body, 0.0, slow.step, body.state(), {}); };
+  for (int k = 0; k < hashed_steps; ++k) step();
+  bench::StateHash().add(body.state()).report(state);
+  for (auto _ : state) step();
+  bench::report_time(state, c.scene.mesh.triangle_count());
 }
 
 BENCHMARK_CAPTURE(constraints, eliminated, rheo::ConstraintMethod::automatic)

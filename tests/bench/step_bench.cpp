@@ -8,23 +8,22 @@
 //   branches/<kernel>/<triangles>/<n>  n Maxwell branches of either modulus in parallel, on one thread
 //   regions/<kernel>/<triangles>       two materials in the mesh, on one thread
 //   start/<triangles>          a simulation made ready: the kernel's numbers, the stable step; no file is
-//   read
+//                              read. From 100 triangles on, and step/edge likewise
 //
-// Counters: ns a triangle and step; the bytes and flops that a step must at least move and do; for the edge
-// kernel, whose sweeps pass through the mesh together, also the bytes of one such pass, which come from
-// memory where the mesh is larger than the caches; the hash of the state after some first steps (one for a
-// kernel and level, with any number of threads). Run with
+// Counters: time a triangle and step; the bytes and flops that a step must at least move and do; for edge and
+// element, whose sweeps pass through the mesh together, also the bytes of one such pass, which come from
+// memory where the mesh is larger than the caches. Label: the hash of the state after some first steps (one
+// for a kernel and level, with any number of threads). Run with
 // --benchmark_enable_random_interleaving=true and --benchmark_repetitions=9 on a machine that does nothing
 // else, and compare medians.
 
 #include <benchmark/benchmark.h>
 
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <memory>
 
 #include "assembled_body.hpp"
+#include "bench/counters.hpp"
 #include "bench/step_case.hpp"
 #include "body_choice.hpp"
 #include "kernels/edge_body.hpp"
@@ -39,23 +38,11 @@ using rheo::Vector;
 
 constexpr int hashed_steps = 8;  // before the timed ones, from the same state
 
-std::uint32_t hash_of(std::span<const double> y) {  // FNV-1a over the bits
-  std::uint32_t hash = 2166136261u;
-  for (double x : y) {
-    const auto bits = std::bit_cast<std::uint64_t>(x);
-    for (int shift = 0; shift < 64; shift += 8)
-      hash = (hash ^ static_cast<std::uint8_t>(bits >> shift)) * 16777619u;
-  }
-  return hash;
-}
-
-void report(benchmark::State& state, const Case& c, double bytes, double flops, double hash) {
+void report(benchmark::State& state, const Case& c, double bytes, double flops) {
   const double triangles = c.scene.mesh.triangle_count();
-  state.counters["ns/tri"] = benchmark::Counter(
-      1e-9 * triangles, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  bench::report_time(state, triangles);
   state.counters["bytes/tri"] = bytes / triangles;
   state.counters["flops/tri"] = flops / triangles;
-  state.counters["hash"] = hash;
 }
 
 // Textbook: y' = f(y) with two products, four stages, sums of whole vectors.
@@ -90,28 +77,32 @@ void step_csr(benchmark::State& state) {
     y += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
   };
   for (int k = 0; k < hashed_steps; ++k) step();
-  const double hash = hash_of({y.data(), static_cast<std::size_t>(y.size())});
+  bench::StateHash().add({y.data(), static_cast<std::size_t>(y.size())}).report(state);
   for (auto _ : state) step();
   const auto entries =
       static_cast<double>(m.j(rheo::Modulus::lambda).nonZeros() + m.j(rheo::Modulus::mu).nonZeros());
   report(state, c, 4 * (12 * entries + 8.0 * static_cast<double>(part) * 12),
-         4 * (2 * entries + 20.0 * static_cast<double>(part)), hash);
+         4 * (2 * entries + 20.0 * static_cast<double>(part)));
 }
 
-void run_body(benchmark::State& state, const Case& c, rheo::Body& body, double bytes, double flops) {
-  body.enter(c.interval, c.base);
-  body.load(c.y);
+// Steps of a body that stands at a state; the first ones are hashed.
+void time_steps(benchmark::State& state, const Case& c, rheo::Body& body) {
   const auto integrator = rheo::make_integrator(rheo::IntegratorKind::rk4, body.size());
   const auto step = [&] {
     integrator->step(body, 0.0, c.step, body.state(), {});
     body.impose_prescribed(0.0);
   };
   for (int k = 0; k < hashed_steps; ++k) step();
-  const double hash = hash_of(body.state());
-  for (auto _ : state) {
-    step();
-  }
-  report(state, c, bytes, flops, hash);
+  bench::StateHash().add(body.state()).report(state);
+  for (auto _ : state) step();
+  bench::report_time(state, c.scene.mesh.triangle_count());
+}
+
+void run_body(benchmark::State& state, const Case& c, rheo::Body& body, double bytes, double flops) {
+  body.enter(c.interval, c.base);
+  body.load(c.y);
+  time_steps(state, c, body);
+  report(state, c, bytes, flops);
 }
 
 template <rheo::SimdLevel level, int threads = 1>
@@ -164,16 +155,24 @@ void sizes(benchmark::internal::Benchmark* b) {
 
 void start(benchmark::State& state) {
   const Case& c = case_of(static_cast<int>(state.range(0)));
+  {
+    rheo::Simulation simulation(c.scene, {.energies = false, .threads = 1});
+    if (simulation.advance(simulation.step_bound())) state.SkipWithError("diverged");
+    bench::StateHash().add(simulation).report(state);
+  }
   for (auto _ : state) benchmark::DoNotOptimize(rheo::Simulation(c.scene, {.energies = false, .threads = 1}));
-  state.counters["ns/tri"] =
-      benchmark::Counter(1e-9 * c.scene.mesh.triangle_count(),
-                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  bench::report_time(state, c.scene.mesh.triangle_count());
 }
 
-BENCHMARK(start)->Name("start")->Apply(sizes);
+void sizes_from_100(benchmark::internal::Benchmark* b) {
+  for (int triangles : {100, 200, 400, 900}) b->Arg(triangles);
+  sizes(b);
+}
+
+BENCHMARK(start)->Name("start")->Apply(sizes_from_100);
 BENCHMARK(step_csr)->Name("step/csr")->Apply(sizes);
 BENCHMARK(step_assembled)->Name("step/assembled_horner")->Apply(sizes);
-BENCHMARK(step_edge_best<1>)->Name("step/edge")->Apply(sizes);
+BENCHMARK(step_edge_best<1>)->Name("step/edge")->Apply(sizes_from_100);
 BENCHMARK(step_edge_best<2>)->Name("step2/edge")->Apply(sizes);
 BENCHMARK(step_edge<rheo::SimdLevel::baseline>)->Name("step/edge_baseline")->Apply(sizes);
 BENCHMARK(step_edge<rheo::SimdLevel::avx2>)->Name("step/edge_avx2")->Apply(sizes);
@@ -193,7 +192,9 @@ void step_element(benchmark::State& state) {
   const auto triangles = static_cast<double>(force.form().offset.size());
   const auto nodes = static_cast<double>(force.form().nodes);
   // A sweep reads a triangle's 4 numbers and 3 indices, and a node's x, base and inverse mass, and writes out
-  // (forces stay in cache); u once a step.
+  // (forces stay in cache); u once a step. A pass: all that once, u and both of the integrator's buffers
+  // included.
+  state.counters["pass_bytes/tri"] = (44 * triangles + nodes * (16 + 64 + 64 + 2 * 64)) / triangles;
   run_body(state, c, body, 4 * (44 * triangles + nodes * (48 + 48 + 16 + 48)) + 32 * nodes,
            4 * (61 * triangles + 24 * nodes));
 }
@@ -215,18 +216,6 @@ BENCHMARK(step_element_best<2>)->Name("step2/element")->Apply(sizes);
 BENCHMARK(step_element<rheo::SimdLevel::baseline>)->Name("step/element_baseline")->Apply(sizes);
 BENCHMARK(step_element<rheo::SimdLevel::avx2>)->Name("step/element_avx2")->Apply(sizes);
 BENCHMARK(step_element<rheo::SimdLevel::avx512>)->Name("step/element_avx512")->Apply(sizes);
-
-// Steps of a body that stands at a state.
-void time_steps(benchmark::State& state, const Case& c, rheo::Body& body) {
-  const auto integrator = rheo::make_integrator(rheo::IntegratorKind::rk4, body.size());
-  for (auto _ : state) {
-    integrator->step(body, 0.0, c.step, body.state(), {});
-    body.impose_prescribed(0.0);
-  }
-  state.counters["ns/tri"] =
-      benchmark::Counter(1e-9 * c.scene.mesh.triangle_count(),
-                         benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-}
 
 template <rheo::Assembly assembly>
 void step_branches(benchmark::State& state) {

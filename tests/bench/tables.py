@@ -2,16 +2,16 @@
 """Runs the benchmark programs and prints, as Markdown, the tables that README shows; draws run time against error.
 
     python3 tests/bench/tables.py [--build build/release] [--repetitions 5] [--out out/tables]
-                                  [--max-triangles 1000000] [--budget 120]
+                                  [--max-triangles 1000000] [--budget 240]
                                   [--scenes beam,beam_fine] [--refined 1000,10000] [--threads N]
-                                  [--only steps,branches,skips,graded,pictures,frames,integrators]
+                                  [--only steps,memory,branches,skips,graded,pictures,frames,integrators]
 
 A step of the kernels against the baseline and, where it was built, the peer; bytes and flops of a step against
-what the machine was measured to do; steps of several branches and materials; what skipping saves; the implicit
-integrator on a graded mesh; pictures a second; frame times; the integrators by `rheo bench` on some shipped scenes
-and on the paper's beam, refined and jittered, lumped, pulled for 1 of 2 s; what each takes to reach 1e-3, 1e-5 and
-1e-9. Medians of interleaved repetitions, with their spread. The machine should do nothing else meanwhile: the load at
-the start is printed.
+what the machine was measured to do; memory a triangle; steps of several branches and materials; what skipping saves;
+the implicit integrator on a graded mesh; pictures a second; frame times; the integrators by `rheo bench` on some
+shipped scenes and on the paper's beam, refined and jittered, lumped, pulled for 1 of 2 s; what each takes to reach
+1e-3, 1e-5 and 1e-9. Medians of interleaved repetitions, with their spread. The machine should do nothing else
+meanwhile: the load at the start is printed.
 """
 
 import argparse
@@ -70,10 +70,13 @@ def median_and_spread(values):
 
 
 def nanoseconds(records):
-    return median_and_spread([r["ns/tri"] for r in records])
+    return median_and_spread([1e9 * r["time/tri"] for r in records])
 
 
-TABLES = ["steps", "branches", "skips", "graded", "pictures", "frames", "integrators"]
+TABLES = ["steps", "memory", "branches", "skips", "graded", "pictures", "frames", "integrators"]
+
+
+SMALL_SIZES = "100|200|400|900"  # where what does not grow with the mesh counts in start-up
 
 
 def size_name(triangles):
@@ -189,6 +192,21 @@ def at_size(rows, megabytes):
     return min(rows, key=lambda row: max(row[0] / megabytes, megabytes / row[0]))[1]
 
 
+ROOFLINE = ["step/csr", "step/edge", "step2/edge", "step/element", "step2/element"]
+
+
+def nearness(records, size, rates, peak_flops):
+    """Of a kernel's step: bytes and flops a second, and their shares of what the machine does."""
+    r = records[0]
+    seconds = nanoseconds(records)[0] * 1e-9
+    # Four sweeps move the bytes; what they touch is a quarter of it.
+    rate = at_size(rates, max(r["bytes/tri"] * size / 4 * 1e-6, 0.1))
+    moved, done = r["bytes/tri"] / seconds, r["flops/tri"] / seconds
+    bound = max(r["bytes/tri"] / rate, r["flops/tri"] / peak_flops)
+    return {"moved": moved, "of_bandwidth": moved / rate, "done": done, "of_peak": done / peak_flops,
+            "of_bound": bound / seconds}
+
+
 def print_roofline(table, found):
     triad, flops = bandwidth(found), peak(found)
     print("\n## The machine\n")
@@ -203,22 +221,26 @@ def print_roofline(table, found):
     print("| kernel | triangles | bytes/tri | flops/tri | GB/s | of bandwidth | Gflop/s | of peak | of the bound |")
     print("|---|---|---|---|---|---|---|---|---|")
     top = max(flops.values())
-    for kernel in ("step/csr", "step/edge", "step2/edge", "step/element"):
+    for kernel in ROOFLINE:
         threads = 2 if kernel.startswith("step2") else 1
         for size, records in sorted(table.get(kernel, {}).items()):
             r = records[0]
-            seconds = nanoseconds(records)[0] * 1e-9
-            # Four sweeps move the bytes; what they touch is a quarter of it.
-            use = max(r["bytes/tri"] * size / 4 * 1e-6, 0.1)
-            rate = at_size(triad.get(threads, triad[1]), use)
-            moved, done = r["bytes/tri"] / seconds, r["flops/tri"] / seconds
-            bound = max(r["bytes/tri"] / rate, r["flops/tri"] / (top * threads))
+            near = nearness(records, size, triad.get(threads, triad[1]), top * threads)
             print(
                 f"| {NAMES.get(kernel, kernel)} | {size_name(size)} | {r['bytes/tri']:.0f} | {r['flops/tri']:.0f} | "
-                f"{moved * 1e-9:.3g} | {100 * moved / rate:.0f} % | {done * 1e-9:.3g} | "
-                f"{100 * done / (top * threads):.0f} % | {100 * bound / seconds:.0f} % |"
+                f"{near['moved'] * 1e-9:.3g} | {100 * near['of_bandwidth']:.0f} % | {near['done'] * 1e-9:.3g} | "
+                f"{100 * near['of_peak']:.0f} % | {100 * near['of_bound']:.0f} % |"
             )
-    for kernel in ("step/edge", "step2/edge"):
+    print_passes(table, triad)
+    print(
+        "\nMore than 100 % of the bandwidth: all of a step's sweeps pass through the mesh together, so that bytes "
+        "counted sweep by sweep come from cache."
+    )
+
+
+def print_passes(table, triad):
+    """Where the mesh is larger than the caches, what one pass a step moves through memory."""
+    for kernel in ROOFLINE:
         threads = 2 if kernel.startswith("step2") else 1
         for size, records in sorted(table.get(kernel, {}).items()):
             passed = records[0].get("pass_bytes/tri", 0.0)
@@ -230,10 +252,17 @@ def print_roofline(table, found):
                 f"\n{NAMES[kernel]}, {size_name(size)}: one pass a step moves {passed:.0f} bytes a triangle through "
                 f"memory: {moved * 1e-9:.3g} GB/s, {100 * moved / rate:.0f} % of the triad's at {megabytes} MB."
             )
-    print(
-        "\nMore than 100 % of the bandwidth: all of a step's sweeps pass through the mesh together, so that bytes "
-        "counted sweep by sweep come from cache."
-    )
+
+
+def print_agreement(table):
+    """Whether one and two threads end in the same bits (the label is a hash of the state)."""
+    for kernel in ("edge", "element"):
+        one, two = table.get(f"step/{kernel}", {}), table.get(f"step2/{kernel}", {})
+        for size in sorted(set(one) & set(two)):
+            hashes = {r["label"] for r in one[size] + two[size]}
+            if len(hashes) != 1:
+                sys.exit(f"{kernel} kernel, {size} triangles: runs end in different states: {sorted(hashes)}")
+    print("\nAll runs of a kernel end in the same bits, on one thread and on two.")
 
 
 def refined_beam(triangles, folder):
@@ -345,6 +374,8 @@ def print_integrators(arguments):
                 f"| {run['integrator']} | {setting} | {run['kernel']} | {run['threads']} | "
                 f"{run['force_evaluations']} | {times} | {error} |"
             )
+        for forecast in report["forecasts"]:
+            print(f"\nNot measured: {forecast}")
         for left in report["left_out"]:
             print(f"\nLeft out: {left['what']}: {left['why']}")
         if report["runs"]:
@@ -362,9 +393,11 @@ def print_step_tables(arguments, bench, sizes):
         table.update(by_kernel(run_benchmark(peer, f"/({sizes})/", arguments)))
     table = in_order(table)
     start = table.pop("start", {})
+    small = by_kernel(run_benchmark(bench / "rheo_bench_step", f"^(start|step/edge)/({SMALL_SIZES})/", arguments))
     print_steps(table)
+    print_agreement(table)
     print("\nThe baseline is textbook code and has no threads; nor has the peer.")
-    print_start(start, table.get("step/edge", {}))
+    print_start({**small["start"], **start}, {**small["step/edge"], **table.get("step/edge", {})})
     if peer.exists():
         print_peer(table)
     else:
@@ -392,7 +425,7 @@ def main():
     parser.add_argument("--repetitions", type=int, default=5)
     parser.add_argument("--min-time", default="0.2", help="seconds of a repetition")
     parser.add_argument("--max-triangles", type=int, default=1000000)
-    parser.add_argument("--budget", type=float, default=120.0, help="seconds of `rheo bench` a scene")
+    parser.add_argument("--budget", type=float, default=240.0, help="seconds of `rheo bench` a scene")
     parser.add_argument("--scenes", default="beam,beam_fine", help="names of shipped scenes")
     parser.add_argument("--refined", default="1000,10000", help="triangles of the refined beams")
     parser.add_argument("--threads", type=int, help="of `rheo bench`")
@@ -412,6 +445,8 @@ def main():
     sizes = "|".join(str(s) for s in (1000, 10000, 100000, 1000000) if s <= arguments.max_triangles)
     if "steps" in only:
         print_step_tables(arguments, bench, sizes)
+    if "memory" in only and (bench / "rheo_bench_memory").exists():
+        side_tables.print_memory(bench / "rheo_bench_memory", sizes.split("|"))
     if "branches" in only:
         print_branch_tables(arguments, bench, sizes)
     if "skips" in only:
