@@ -43,6 +43,8 @@ constexpr double accurate_enough = 1e-11;  // no finer settings beyond it
 constexpr double share_of_rest = 0.3;      // of the budget's rest, for one run
 constexpr double share_of_repeats = 0.3;   // of the budget, kept for them
 constexpr double coarsest = 1e-2;          // tolerance
+constexpr double order_shows = 1e-4;       // errors below it follow the order
+constexpr double longest_reach = 60.0;     // seconds, for a run to the finest error wanted
 // Short runs are repeated, in turn with all others, until they have taken so long together.
 constexpr int most_repeats = 9;
 constexpr double worth_repeating = 0.5;  // seconds
@@ -127,9 +129,37 @@ class Bench {
       if (row.seconds.size() > 1) row.seconds.erase(row.seconds.begin());
   }
 
+  // To the finest error wanted by the order, where halving the step did not come to it.
+  void reach(rheo::IntegratorKind integrator, int order) {
+    const Row* finest = nullptr;
+    for (const Row& row : result_.rows)
+      if (row.setting.integrator == integrator && (finest == nullptr || row.error < finest->error))
+        finest = &row;
+    if (finest == nullptr || finest->error <= finest_wanted || finest->error > order_shows) return;
+    // A little beyond it: the order is not exact.
+    const double shorter = std::pow(0.8 * finest_wanted / finest->error, 1.0 / order);
+    const Setting setting{integrator, rounded_down(shorter * finest->setting.step), 0.0};
+    const std::string what = fmt::format("{} {}", name_of(integrator), knob_of(setting));
+    const double seconds = finest->median() / shorter;
+    if (seconds > std::min(longest_reach, left())) {
+      result_.forecasts.push_back(
+          fmt::format("{}: an error of {} would take about {:.2g} s, by its order from the error at {}", what,
+                      short_number(finest_wanted), seconds, knob_of(finest->setting)));
+      return;
+    }
+    double cost = finest->median() / std::max(1.0, planned_steps(finest->setting));
+    share_of_rest_ = 1.0;
+    run(setting, cost);
+    share_of_rest_ = share_of_rest;
+  }
+
   Rows take() { return std::move(result_); }
 
  private:
+  double planned_steps(const Setting& setting) const {
+    return static_cast<double>(rheo::Simulation(scene_with(scene_, setting), options_).planned_steps());
+  }
+
   double left() const { return budget_ - since(start_); }
 
   void leave_out(const std::string& what, const std::string& why) { result_.left_out.push_back({what, why}); }
@@ -185,7 +215,7 @@ class Bench {
       rheo::Simulation probe(scene_with(scene_, setting), options_);
       cost = seconds_per_step(probe);
     }
-    const double most = share_of_rest * left();
+    const double most = share_of_rest_ * left();
     if (cost * planned > most) {
       leave_out(what, over_budget(cost * planned));
       return Outcome::stop;
@@ -223,6 +253,7 @@ class Bench {
   const Reference& reference_;
   Progress& progress_;
   double budget_, whole_budget_;
+  double share_of_rest_ = share_of_rest;
   Clock::time_point start_;
   std::int64_t done_ = 0;
   Rows result_;
@@ -251,6 +282,7 @@ Rows bench_runs(const rheo::Scene& scene, const rheo::SimulationOptions& options
   for (const Family& family : families)
     if (!only || *only == family.integrator) bench.sweep(family);
   bench.repeat();
+  if (!only || *only == rheo::IntegratorKind::rk4) bench.reach(rheo::IntegratorKind::rk4, 4);
   progress.end();
   return bench.take();
 }

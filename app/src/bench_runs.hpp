@@ -35,8 +35,12 @@ struct LeftOut {
   std::string why;
 };
 
+// The finest error that anyone is advised for.
+constexpr double finest_wanted = 1e-9;
+
 struct Rows {
   std::vector<Row> rows;
+  std::vector<std::string> forecasts;  // what was extrapolated instead of measured, and from what
   std::vector<LeftOut> left_out;
 };
 

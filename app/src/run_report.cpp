@@ -278,6 +278,7 @@ void write_bench_report(const std::filesystem::path& path, const Options& option
                    {"uncertainty", report.reference.uncertainty}};
   json["runs"] = Json::array();
   for (const Row& row : report.runs.rows) json["runs"].push_back(run_of(row));
+  json["forecasts"] = report.runs.forecasts;
   json["left_out"] = Json::array();
   for (const LeftOut& left : report.runs.left_out)
     json["left_out"].push_back({{"what", left.what}, {"why", left.why}});
