@@ -11,6 +11,7 @@
 #include "rheo/error.hpp"
 #include "rheo/memory_limit.hpp"
 #include "rheo/simulation.hpp"
+#include "schedule.hpp"
 #include "timeline.hpp"
 
 namespace rheo {
@@ -61,7 +62,7 @@ double further_branches(const Scene& scene) {
 double nodes_need(const Scene& scene) {
   const double nodes = scene.mesh.node_count();
   const bool lumped = scene.material.mass == Mass::lumped;
-  double need = nodes * (lumped ? 900.0 : 2700.0);
+  double need = nodes * (!lumped ? 2700.0 : has_columns(scene) ? 2800.0 : 900.0);
   if (scene.time.integrator == IntegratorKind::implicit) {
     const double factor = 135.0 * std::log2(nodes) * nodes;
     need = nodes * (lumped ? 2400.0 : 4500.0) +

@@ -2,8 +2,9 @@
 //
 // An estimate, about by how much the largest parts grow:
 //
-//   nodes          0.9 kB each with lumped mass, 2.7 kB with the consistent one, whose factors fill in (peak
-//                  resident size of `rheo check` on a rectangle of 500 x 500 nodes); the implicit
+//   nodes          0.9 kB each with lumped mass, 2.8 kB where constraints are solved for, from assembled
+//                  matrices, 2.7 kB with the consistent one, whose factors fill in (peak resident size of
+//                  `rheo check` on a rectangle of 500 x 500 nodes; rheo_bench_memory); the implicit
 //                  integrator's matrices 2.4 and 4.5 kB, and for each factor kept at most 135 log2(nodes)
 //                  bytes a node (from 500 to 500,000 nodes: rectangles 52 to 107, disks 80 to 133)
 //   branches       128 bytes for each beyond the first and each node of its material's; where materials meet
