@@ -308,15 +308,14 @@ std::int64_t Schedule::planned_steps(double bound) const {
   return steps;
 }
 
-std::vector<Simulation::ActiveTraction> Schedule::active_tractions(std::size_t i, double t) const {
-  std::vector<Simulation::ActiveTraction> result;
+void Schedule::active_tractions(std::size_t i, double t, std::vector<Simulation::ActiveTraction>& out) const {
+  out.clear();
   const double inside = middle(i);
   for (std::size_t k = 0; k < scene_.tractions.size(); ++k) {
     if (!is_active(scene_.tractions[k].window, inside)) continue;
     const auto course = piece_at(scene_.tractions[k], inside);
-    result.push_back({static_cast<int>(k), {course[0].value(t), course[1].value(t)}});
+    out.push_back({static_cast<int>(k), {course[0].value(t), course[1].value(t)}});
   }
-  return result;
 }
 
 }  // namespace rheo

@@ -56,7 +56,7 @@ class Schedule {
   std::size_t holder_count() const { return holders_.size(); }
   // Steps of at most `bound` through all intervals and outputs.
   std::int64_t planned_steps(double bound) const;
-  std::vector<Simulation::ActiveTraction> active_tractions(std::size_t i, double t) const;
+  void active_tractions(std::size_t i, double t, std::vector<Simulation::ActiveTraction>& out) const;
 
   // Over all sets of constraints that the scene goes through.
   Spectrum spectrum() const { return spectrum_; }

@@ -333,13 +333,24 @@ ProbeReading Simulation::read(const Probe& probe) {
 }
 
 std::vector<Simulation::ActiveTraction> Simulation::active_tractions() const {
-  return impl_->schedule.active_tractions(impl_->stepping.interval_index(), time());
+  std::vector<ActiveTraction> tractions;
+  active_tractions(tractions);
+  return tractions;
+}
+
+void Simulation::active_tractions(std::vector<ActiveTraction>& out) const {
+  impl_->schedule.active_tractions(impl_->stepping.interval_index(), time(), out);
 }
 
 std::vector<int> Simulation::held_dofs() const {
   std::vector<int> dofs;
-  for (const HeldDof& h : impl_->stepping.interval().held) dofs.push_back(h.dof);
+  held_dofs(dofs);
   return dofs;
+}
+
+void Simulation::held_dofs(std::vector<int>& out) const {
+  out.clear();
+  for (const HeldDof& h : impl_->stepping.interval().held) out.push_back(h.dof);
 }
 
 }  // namespace rheo

@@ -5,11 +5,13 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <thread>
 
 #include "rheo/io/scene_file.hpp"
 #include "rheo/io/scene_text.hpp"
+#include "support/allocation_count.hpp"
 #include "view/history.hpp"
 #include "view/triple_buffer.hpp"
 #include "view_scene.hpp"
@@ -55,6 +57,34 @@ TEST(ViewCore, WhatIsPushedAndReleasedComesBackPartOfTheWay) {
   core.show(released);
   EXPECT_EQ(released.hand.hold, Hold::nothing);
   EXPECT_EQ(released.hand.traction, rheo::Vec2{});
+}
+
+// Physics and what the display is fed with, frame by frame, as the window's thread does it.
+TEST(ViewCore, NothingIsAllocatedInAFrame) {
+  if (!rheo::test::can_count_allocations()) GTEST_SKIP() << "the sanitizer has an allocator of its own";
+  for (const Hold hold : {Hold::push, Hold::grab}) {
+    Core core(block(), {});
+    ASSERT_TRUE(core.begin(hold, right_of(core.scene())));
+    const auto aim = [&](int k) {
+      core.aim(hold == Hold::push ? rheo::Vec2{300.0 + k, 0.0} : rheo::Vec2{1e-3 + 1e-6 * k, 0.0}, 1.0);
+    };
+    std::array<Display, 3> displays;
+    const auto frames = [&](int count) {
+      bool fine = true;
+      for (int k = 0; k < count; ++k) {
+        aim(k);
+        for (int tick = 0; tick < 16; ++tick) fine = core.tick() && fine;
+        core.show(displays[static_cast<std::size_t>(k) % displays.size()]);
+      }
+      return fine;
+    };
+    ASSERT_TRUE(frames(12));  // past the first look whether it rests, at 0.1 s
+    const rheo::test::AllocationCount count;
+    const bool fine = frames(60);
+    const rheo::test::Allocations made = count.so_far();
+    EXPECT_TRUE(fine);
+    EXPECT_EQ(made.calls, 0) << (hold == Hold::push ? "push" : "grab");
+  }
 }
 
 TEST(ViewCore, AGrabFollowsTheHandAndTellsTheReaction) {

@@ -163,7 +163,8 @@ void Core::begin_again() {
   still_ = false;
   still_since_ = looked_at_ = live_->time();
   looked_at_u_.clear();
-  looked_at_w_.clear();
+  looked_at_w_lambda_.clear();
+  looked_at_w_mu_.clear();
   largest_w_ = 0.0;
   last_event_ = last_event_of(*scene_);
   size_ = size_of(scene_->mesh);
@@ -330,9 +331,8 @@ void Core::watch_for_rest() {
   for (const double value : simulation.w_mu()) w = std::max(w, std::abs(value));
   for (const double value : simulation.w_lambda()) w = std::max(w, std::abs(value));
   largest_w_ = std::max(largest_w_, w);
-  std::vector<double> both(simulation.w_lambda().begin(), simulation.w_lambda().end());
-  both.insert(both.end(), simulation.w_mu().begin(), simulation.w_mu().end());
-  const double changed = largest_change(both, looked_at_w_);
+  const double changed = std::max(largest_change(simulation.w_lambda(), looked_at_w_lambda_),
+                                  largest_change(simulation.w_mu(), looked_at_w_mu_));
   const bool hand_moves = hold_ != Hold::nothing && !(at_ == target_);
   if (moved > still_place * size_ || changed > still_w * largest_w_ || hand_moves || t < last_event_)
     still_since_ = t;
@@ -363,8 +363,8 @@ void Core::show(Display& display) {
     find_scalars(simulation, rheo::ColorBy::w_lambda, branch, display.w_lambda);
     find_scalars(simulation, rheo::ColorBy::w_mu, branch, display.w_mu);
   }
-  display.held = simulation.held_dofs();
-  display.tractions = simulation.active_tractions();
+  simulation.held_dofs(display.held);
+  simulation.active_tractions(display.tractions);
   display.hand.hold = hold_;
   display.hand.edges = edges_;
   display.hand.traction = display.hand.displacement = display.hand.force = {};

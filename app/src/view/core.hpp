@@ -56,6 +56,7 @@ class Core {
   // Nothing acts, nothing will act, and for half a second nothing moved that could be seen.
   bool still() const { return still_; }
 
+  // Neither this nor tick() allocates anything once it has done so for a body, its display and its hand.
   void show(Display& display);
   const std::string& message() const { return message_; }
   void say(std::string message);
@@ -94,7 +95,7 @@ class Core {
   double last_event_ = 0.0, size_ = 1.0;
   bool still_ = false;
   double still_since_ = 0.0;
-  std::vector<double> looked_at_u_, looked_at_w_;
+  std::vector<double> looked_at_u_, looked_at_w_lambda_, looked_at_w_mu_;
   double looked_at_ = 0.0, largest_w_ = 0.0;
 
   std::string message_;

@@ -100,16 +100,16 @@ void Physics::anchor_now() {
 
 // Whether anything was asked for. Commands run without the lock: loading a scene takes its time.
 bool Physics::take_commands() {
-  std::deque<std::function<void(Core&)>> commands;
+  taken_.clear();
   std::optional<rheo::Scene> edited;
   std::optional<rheo::Vec2> target;
   bool any = false;
   {
     const std::lock_guard lock(mutex_);
-    commands.swap(commands_);
+    taken_.swap(commands_);
     edited.swap(edit_);
     target.swap(aim_);
-    any = !commands.empty() || edited || target || run_ || turned_ || set_speed_ || asked_ticks_ > 0;
+    any = !taken_.empty() || edited || target || run_ || turned_ || set_speed_ || asked_ticks_ > 0;
     const bool running = run_.value_or(running_) != turn_;
     if (running != running_ || set_speed_) {
       running_ = running;
@@ -123,7 +123,7 @@ bool Physics::take_commands() {
     owed_ticks_ += std::exchange(asked_ticks_, 0);
   }
   try {
-    for (const auto& command : commands) command(core_);
+    for (const auto& command : taken_) command(core_);
     if (edited) core_.change(std::move(*edited));
   } catch (const std::exception& error) {  // no memory for another scene: the old one goes on
     core_.say(error.what());
@@ -165,7 +165,9 @@ void Physics::publish() {
   if (running_ && !resting_) {
     if (!marks_.empty() && marks_.back().t > display.t) marks_.clear();
     marks_.push_back({now, display.t});
-    while (marks_.size() > 2 && seconds(now - marks_.front().at) > 1.0) marks_.pop_front();
+    std::size_t old = 0;
+    while (marks_.size() - old > 2 && seconds(now - marks_[old].at) > 1.0) ++old;
+    marks_.erase(marks_.begin(), marks_.begin() + static_cast<std::ptrdiff_t>(old));
   } else {
     marks_.clear();
   }

@@ -12,7 +12,6 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <deque>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -65,7 +64,7 @@ class Physics {
 
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::deque<std::function<void(Core&)>> commands_;
+  std::vector<std::function<void(Core&)>> commands_;
   std::optional<rheo::Scene> edit_;
   std::optional<rheo::Vec2> aim_;
   std::optional<bool> run_;
@@ -85,7 +84,8 @@ class Physics {
     Clock::time_point at;
     double t;
   };
-  std::deque<Mark> marks_;  // of the last second
+  std::vector<std::function<void(Core&)>> taken_;  // what the thread is at
+  std::vector<Mark> marks_;                        // of the last second
 
   std::thread thread_;
 };

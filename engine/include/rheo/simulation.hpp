@@ -203,6 +203,9 @@ class Simulation {
   };
   std::vector<ActiveTraction> active_tractions() const;
   std::vector<int> held_dofs() const;
+  // The same into what the caller keeps: no allocation where it had room for as many before.
+  void active_tractions(std::vector<ActiveTraction>& out) const;
+  void held_dofs(std::vector<int>& out) const;
 
   const Counters& counters() const;
 
