@@ -76,6 +76,12 @@ void print_bodies(const rheo::Scene& scene, const std::vector<MaterialPart>& mat
   });
 }
 
+std::string thickness_text(const rheo::Mesh& mesh) {
+  if (mesh.thickness_of_node.empty()) return fmt::format("{:g} m", mesh.thickness);
+  const auto [least, most] = std::ranges::minmax(mesh.thickness_of_node);
+  return fmt::format("{:g} to {:g} m", least, most);
+}
+
 void print_mesh(const rheo::Scene& scene) {
   const rheo::Mesh& mesh = scene.mesh;
   row("mesh", "{} nodes, {} triangles, {} boundary edges", mesh.node_count(), mesh.triangle_count(),
@@ -85,7 +91,7 @@ void print_mesh(const rheo::Scene& scene) {
     groups += fmt::format("{}{} ({})", groups.empty() ? "" : ", ", name, edges.size());
   row("edge groups", "{}", groups);
   const double area = area_of(mesh);
-  row("area", "{:.6g} m^2, thickness {:g} m", area, mesh.thickness);
+  row("area", "{:.6g} m^2, thickness {}", area, thickness_text(mesh));
   const std::vector<MaterialPart> materials = materials_of(scene);
   print_bodies(scene, materials);
   double mass = 0.0;
@@ -95,7 +101,7 @@ void print_mesh(const rheo::Scene& scene) {
           plural(static_cast<std::size_t>(part.triangles)), part.material->density);
     for (const auto& [name, text] : material_rows(*part.material, *part.origin))
       row(name.c_str(), "{}", text);
-    mass += part.area * mesh.thickness * part.material->density;
+    mass += part.volume * part.material->density;
   }
   row("mass", "{:.6g} kg ({}){}", mass, scene.material.mass == rheo::Mass::lumped ? "lumped" : "consistent",
       materials.size() > 1 ? "" : fmt::format(", density {:g} kg/m^3", scene.material.density));

@@ -26,7 +26,9 @@ std::vector<MaterialPart> materials_of(const rheo::Scene& scene) {
   for (int t = 0; t < scene.mesh.triangle_count(); ++t) {
     MaterialPart& part = parts[material_at(scene, t)];
     ++part.triangles;
-    part.area += rheo::signed_area(scene.mesh, t);
+    const double area = rheo::signed_area(scene.mesh, t);
+    part.area += area;
+    part.volume += area * scene.mesh.thickness_of(scene.mesh.triangles[static_cast<std::size_t>(t)]);
   }
   return parts;
 }

@@ -18,7 +18,8 @@ struct MaterialPart {
   const rheo::Material* material = nullptr;
   const rheo::MaterialOrigin* origin = nullptr;
   std::int64_t triangles = 0;
-  double area = 0.0;  // [m^2]
+  double area = 0.0;    // [m^2]
+  double volume = 0.0;  // [m^3]
 };
 
 // Views of `scene`.

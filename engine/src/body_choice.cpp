@@ -35,9 +35,14 @@ Assembly assembly_for(const Scene& scene, Kernel kernel, SimdLevel level) {
     throw Error(Error::Kind::input,
                 "kernel edge needs one material in all of the mesh: use auto, element or csr");
   }
+  const bool one_thickness = scene.mesh.thickness_of_node.empty();
+  if (kernel == Kernel::edge && !one_thickness) {
+    throw Error(Error::Kind::input,
+                "kernel edge needs one thickness in all bodies: use auto, element or csr");
+  }
   if (kernel == Kernel::element) return Assembly::elements;
   if (kernel == Kernel::csr || !by_nodes) return Assembly::matrices;
-  if (regions.several()) return Assembly::elements;
+  if (regions.several() || !one_thickness) return Assembly::elements;
   const bool narrow = level == SimdLevel::baseline && !combined(regions.materials.front());
   return kernel == Kernel::automatic && narrow ? Assembly::elements : Assembly::edges;
 }

@@ -50,7 +50,7 @@ Matrices matrices_of(const Mesh& mesh, const Regions& regions, std::size_t regio
       x[2 * i] = g[2 * i + 1] = (next.y - last.y) / (2.0 * area);
       y[2 * i + 1] = g[2 * i] = (last.x - next.x) / (2.0 * area);
     }
-    const double volume = area * mesh.thickness;
+    const double volume = area * mesh.thickness_of(t);
     const Form d = x + y;
     const Eigen::Matrix<double, 6, 6> lambda = volume * d * d.transpose();
     const Eigen::Matrix<double, 6, 6> mu =
@@ -308,7 +308,7 @@ class Flow {
       const std::array<Polynomial, 2> course = piece_at(traction, inside);
       for (const Edge& edge : traction.edges) {
         const Vec2 &p = scene_.mesh.points[edge[0]], &q = scene_.mesh.points[edge[1]];
-        const double half = 0.5 * scene_.mesh.thickness * std::hypot(q.x - p.x, q.y - p.y);
+        const double half = 0.5 * scene_.mesh.thickness_of(edge) * std::hypot(q.x - p.x, q.y - p.y);
         for (const int node : edge)
           for (int axis = 0; axis < 2; ++axis)
             f[2 * node + axis] += half * course[axis].derivative(begin(), derivative);

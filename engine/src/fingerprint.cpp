@@ -43,6 +43,7 @@ void add(Fingerprint& f, const Mesh& mesh) {
     for (const int node : triangle) f.add(node);
   });
   f.add(mesh.thickness);
+  add_list(f, mesh.thickness_of_node, [&](double thickness) { f.add(thickness); });
 }
 
 void add(Fingerprint& f, const Move& move) {

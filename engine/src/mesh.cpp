@@ -55,6 +55,13 @@ class Preparation {
     if (!of_usable_size(mesh_.thickness)) {
       refuse("thickness = {}: {:g} to {:g} m is allowed", mesh_.thickness, smallest_size, largest_size);
     }
+    for (const double thickness : mesh_.thickness_of_node) {
+      if (!(thickness > 0.0) || !of_usable_size(thickness))
+        refuse("thickness = {}: {:g} to {:g} m is allowed", thickness, smallest_size, largest_size);
+    }
+    if (!mesh_.thickness_of_node.empty() && mesh_.thickness_of_node.size() != mesh_.points.size())
+      refuse("{} thicknesses for {} nodes: one for all, or one a node is needed",
+             mesh_.thickness_of_node.size(), mesh_.points.size());
     if (mesh_.triangles.empty()) refuse("the mesh has no triangles: at least one is needed");
     constexpr auto most = static_cast<std::size_t>(std::numeric_limits<int>::max() / 6);
     if (mesh_.points.size() > most || mesh_.triangles.size() > most) {
@@ -90,6 +97,9 @@ class Preparation {
         if (t[k] == t[(k + 1) % 3])
           refuse("{}: node {} twice; three different nodes are needed", name(i), t[k]);
       }
+      if (mesh_.thickness_at(t[1]) != mesh_.thickness_at(t[0]) ||
+          mesh_.thickness_at(t[2]) != mesh_.thickness_at(t[0]))
+        refuse("{}: its nodes differ in thickness; a triangle has one", name(i));
       double longest2 = 0.0;
       for (const std::size_t k : {0u, 1u, 2u}) {
         const Vec2 a = mesh_.points[static_cast<std::size_t>(t[k])];

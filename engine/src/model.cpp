@@ -39,7 +39,7 @@ SparseMatrix connection_matrix(const Mesh& mesh, const Patch& patch, Modulus mod
     const int e = patch.nodes.empty() ? static_cast<int>(k) : patch.triangles[k];
     Triangle t = mesh.triangles[e];
     const auto q = corners(mesh, t);
-    const double scale = mesh.thickness / (4.0 * signed_area(mesh, e));
+    const double scale = mesh.thickness_of(mesh.triangles[e]) / (4.0 * signed_area(mesh, e));
     if (!number.empty())
       for (int& node : t) node = number[static_cast<std::size_t>(node)];
     for (int i = 0; i < 3; ++i) {
@@ -208,7 +208,7 @@ Model::Model(const Mesh& mesh, const Regions& regions, Assembly assembly)
     const std::size_t region = has_several_materials() ? static_cast<std::size_t>(regions.of_triangle[e]) : 0;
     const Material& m = patches[region].material;
     const Triangle& t = mesh.triangles[e];
-    const double triangle_mass = m.density * mesh.thickness * signed_area(mesh, e);
+    const double triangle_mass = m.density * mesh.thickness_of(t) * signed_area(mesh, e);
     for (int i = 0; i < 3; ++i) {
       node_mass[t[i]] += triangle_mass / 3;
       if (consistent) {

@@ -51,7 +51,7 @@ void load_pattern(const Mesh& mesh, std::span<const Edge> edges, LoadPattern& ou
   for (const Edge& edge : edges) {
     const Vec2& p = mesh.points[edge[0]];
     const Vec2& q = mesh.points[edge[1]];
-    const double half = 0.5 * mesh.thickness * std::hypot(q.x - p.x, q.y - p.y);
+    const double half = 0.5 * mesh.thickness_of(edge) * std::hypot(q.x - p.x, q.y - p.y);
     for (const int node : edge) out.emplace_back(node, half);
   }
   // By node, then by size: a sum does not depend on the order of the edges.

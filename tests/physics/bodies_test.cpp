@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rheo/error.hpp"
 #include "rheo/io/scene_file.hpp"
+#include "rheo/io/scene_text.hpp"
 #include "rheo/simulation.hpp"
 
 namespace rheo {
@@ -43,6 +45,15 @@ double largest(std::span<const double> values) {
   return size;
 }
 
+std::string error_of_kernel(const Scene& scene, Kernel kernel) {
+  try {
+    Simulation(scene, {.kernel = kernel});
+    return {};
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
 TEST(Bodies, MoveAsEachDoesAlone) {
   Simulation both(parse("[[body]]\nposition = [3.0, -2.0]\n" + piece(block, "body.") +
                         "[[body]]\nposition = [-1.0, 0.5]\n" + piece(wheel, "body.")));
@@ -67,6 +78,48 @@ TEST(Bodies, MoveAsEachDoesAlone) {
     }
     first += alone.u().size();
   }
+}
+
+// Thickness moves nothing, but weighs masses, forces and energies.
+TEST(Bodies, OfDifferentThicknessWeighWhatEachDoesAlone) {
+  const auto text = [](const Piece& p, const std::string& owner, const char* thickness) {
+    return fmt::format("[{}mesh]\nthickness = {}\n{}{}{}", owner, thickness, p.mesh, material(owner),
+                       fmt::format(fmt::runtime(p.items), owner));
+  };
+  const Scene scene =
+      parse("[[body]]\nposition = [3.0, -2.0]\n" + text(block, "body.", "0.02") +
+            "[[body.probe]]\nname = \"left\"\nedges = \"left\"\n[[body]]\n" + text(wheel, "body.", "0.7"));
+  EXPECT_NE(error_of_kernel(scene, Kernel::edge).find("one thickness"), std::string::npos);
+  for (const IntegratorKind integrator : {IntegratorKind::rk4, IntegratorKind::exponential}) {
+    const auto alone = [&](Scene one) {
+      one.time.integrator = integrator;
+      Simulation simulation(std::move(one));
+      EXPECT_FALSE(simulation.advance(0.4));
+      return simulation;
+    };
+    Simulation thin =
+        alone(parse(text(block, "", "0.02") + "[[probe]]\nname = \"left\"\nedges = \"left\"\n"));
+    Simulation thick = alone(parse(text(wheel, "", "0.7")));
+    const Energies a = thin.energies(), b = thick.energies();
+    EXPECT_GT(b.kinetic + b.stored, a.kinetic + a.stored);
+    for (const Kernel kernel : {Kernel::automatic, Kernel::csr, Kernel::element}) {
+      Scene all = scene;
+      all.time.integrator = integrator;
+      Simulation both(all, {.kernel = kernel});
+      ASSERT_FALSE(both.advance(0.4));
+      const Energies e = both.energies();
+      const double size = a.kinetic + a.stored + b.kinetic + b.stored;
+      EXPECT_NEAR(e.kinetic, a.kinetic + b.kinetic, 1e-9 * size);
+      EXPECT_NEAR(e.stored, a.stored + b.stored, 1e-9 * size);
+      const Vec2 one = thin.read(thin.scene().probes[0]).force,
+                 same = both.read(both.scene().probes[0]).force;
+      EXPECT_NEAR(same.x, one.x, 1e-9 * std::abs(one.x));
+      EXPECT_NEAR(same.y, one.y, 1e-9 * std::abs(one.y));
+    }
+  }
+  // As a hand's session is saved: one mesh, a thickness a node.
+  const Scene again = parse_scene(scene_text(scene), "again.toml", {});
+  EXPECT_EQ(again.mesh.thickness_of_node, scene.mesh.thickness_of_node);
 }
 
 TEST(Bodies, OfOneMaterialAreServedByTheEdgeKernel) {

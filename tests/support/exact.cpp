@@ -94,7 +94,7 @@ DenseMatrices dense_matrices(const Mesh& mesh, const Material& material) {
       b(2, 2 * i) = shape(2, i);
       b(2, 2 * i + 1) = shape(1, i);
     }
-    const double volume = area * mesh.thickness;
+    const double volume = area * mesh.thickness_at(t[0]);
     const Eigen::Matrix<double, 6, 6> jl = volume * b.transpose() * i_lambda * b;
     const Eigen::Matrix<double, 6, 6> jm = volume * b.transpose() * i_mu * b;
     for (int i = 0; i < 3; ++i) {
@@ -361,7 +361,7 @@ std::vector<ExactState> ExactSolution::at(const std::vector<double>& times) cons
         for (const Edge& e : traction.edges) {
           const Vec2& p = s.mesh.points[e[0]];
           const Vec2& q = s.mesh.points[e[1]];
-          const double half = 0.5 * s.mesh.thickness * std::hypot(q.x - p.x, q.y - p.y);
+          const double half = 0.5 * s.mesh.thickness_at(e[0]) * std::hypot(q.x - p.x, q.y - p.y);
           for (int node : e) {
             right[2 * node] += half * (k == 0 ? p0.x : slope.x);
             right[2 * node + 1] += half * (k == 0 ? p0.y : slope.y);

@@ -109,6 +109,8 @@ class Assembly {
     Mesh& all = scene_.mesh;
     const auto first_triangle = static_cast<std::int32_t>(all.triangle_count());
     all.points.insert(all.points.end(), mesh.points.begin(), mesh.points.end());
+    for (int node = 0; node < mesh.node_count(); ++node)
+      all.thickness_of_node.push_back(mesh.thickness_at(node));
     for (Triangle t : mesh.triangles) {
       for (int& node : t) node += first_node_;
       all.triangles.push_back(t);
@@ -154,7 +156,6 @@ Scene read_bodies(const TomlValue& root, const std::string& file, Allowance& all
   Scene scene;
   Assembly assembly(scene);
   std::set<std::string> names;
-  double thickness = 0.0;
   for (const TomlValue& value : top.list("body")) {
     std::vector<std::string> keys = body_keys();
     keys.insert(keys.end(), {"name", "position", "angle"});
@@ -163,12 +164,6 @@ Scene read_bodies(const TomlValue& root, const std::string& file, Allowance& all
     if (name.empty() || !names.insert(name).second)
       reader.refuse_text("name", name, "each body needs a name of its own, not empty");
     Scene body = read_body(value, file, allowance, "body.", value.line);
-    if (!scene.bodies.empty() && body.mesh.thickness != thickness)
-      reader.refuse(
-          fmt::format("[body.mesh] thickness = {:g}: all bodies of a scene have one thickness, {:g} m "
-                      "in the first",
-                      body.mesh.thickness, thickness));
-    thickness = body.mesh.thickness;
     const Vec2 position = reader.pair("position", metres, {});
     if (const double most = farthest * size_of(body.mesh); std::hypot(position.x, position.y) > most)
       reader.refuse(
@@ -181,7 +176,9 @@ Scene read_bodies(const TomlValue& root, const std::string& file, Allowance& all
     assembly.add(std::move(body), name,
                  fmt::format("{}:{}: [body.material]", file, reader.find("material")->line));
   }
-  scene.mesh.thickness = thickness;
+  std::vector<double>& thickness = scene.mesh.thickness_of_node;
+  scene.mesh.thickness = thickness.front();
+  if (std::ranges::count(thickness, thickness.front()) == std::ssize(thickness)) thickness.clear();
   if (scene.regions.empty()) scene.region_of_triangle.clear();
   return scene;
 }

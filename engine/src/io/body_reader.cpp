@@ -47,7 +47,24 @@ class BodyReader {
     if (source == "file") read_mesh_file(mesh);
     if (source != "points") refuse_other_keys(mesh, {"triangles"}, "points");
     if (source == "points") read_points(mesh);
-    scene_.mesh.thickness = mesh.number("thickness", positive_length, 1.0);
+    const TomlValue* const thickness = mesh.find("thickness");
+    if (thickness != nullptr && thickness->type == TomlValue::Type::array)
+      read_thickness(mesh, *thickness);
+    else
+      scene_.mesh.thickness = mesh.number("thickness", positive_length, 1.0);
+  }
+
+  // One a node, as sessions of bodies that differ are saved.
+  void read_thickness(const TableReader& mesh, const TomlValue& list) {
+    const auto nodes = static_cast<std::size_t>(scene_.mesh.node_count());
+    if (list.items.size() != nodes)
+      mesh.refuse("thickness", list,
+                  fmt::format("one number, or one for each of the {} nodes, is needed (m)", nodes));
+    for (std::size_t i = 0; i < nodes; ++i)
+      scene_.mesh.thickness_of_node.push_back(
+          mesh.number(fmt::format("thickness[{}]", i), list.items[i], positive_length));
+    scene_.mesh.thickness = scene_.mesh.thickness_of_node.front();
+    mesh.attribute("thickness", list, [&] { prepare(scene_.mesh); });  // a triangle has one
   }
 
   // Keys that mean nothing beside the chosen ones.

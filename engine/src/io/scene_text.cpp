@@ -105,7 +105,11 @@ class SceneWriter {
   }
 
   void mesh() {
-    line("\n[mesh]\nthickness = {}", number(scene_.mesh.thickness));
+    line("\n[mesh]");
+    if (scene_.mesh.thickness_of_node.empty())
+      line("thickness = {}", number(scene_.mesh.thickness));
+    else
+      rows("thickness", scene_.mesh.thickness_of_node, [](double thickness) { return number(thickness); });
     rows("points", scene_.mesh.points,
          [](const Vec2& p) { return fmt::format("[{}, {}]", number(p.x), number(p.y)); });
     rows("triangles", scene_.mesh.triangles,

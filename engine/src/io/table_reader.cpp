@@ -90,10 +90,13 @@ std::string TableReader::exactly_one(std::span<const std::string> keys) const {
 
 double TableReader::number(std::string_view key, const NumberRule& rule, double otherwise) const {
   const TomlValue* value = find(key);
-  if (value == nullptr) return otherwise;
-  if (!value->is_number() || !rule.admits(value->number)) refuse(key, *value, rule.allowed() + " is needed");
-  check_size(key, *value, rule, value->number);
-  return value->number;
+  return value == nullptr ? otherwise : number(key, *value, rule);
+}
+
+double TableReader::number(std::string_view key, const TomlValue& value, const NumberRule& rule) const {
+  if (!value.is_number() || !rule.admits(value.number)) refuse(key, value, rule.allowed() + " is needed");
+  check_size(key, value, rule, value.number);
+  return value.number;
 }
 
 double TableReader::required_number(std::string_view key, const NumberRule& rule,

@@ -51,6 +51,7 @@ class TableReader {
   std::string exactly_one(std::span<const std::string> keys) const;
 
   double number(std::string_view key, const NumberRule& rule, double otherwise) const;
+  double number(std::string_view key, const TomlValue& value, const NumberRule& rule) const;
   double required_number(std::string_view key, const NumberRule& rule, std::string_view meaning) const;
   std::string text(std::string_view key, const std::string& otherwise) const;
   // Index of the word among `choices`.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -83,6 +84,7 @@ std::optional<Combined> combined(const Material& material) {
 
 EdgeForm::EdgeForm(const Mesh& mesh, const std::optional<Combined>& both, const std::optional<Level>& wanted)
     : moduli(both), row(both ? 2 : 4), nodes(mesh.node_count()), corner_factor(mesh.thickness / 4) {
+  assert(mesh.thickness_of_node.empty());
   if (moduli) corner_factor *= moduli->lambda - moduli->mu;
   const auto n = static_cast<std::size_t>(nodes);
   const std::vector<DirectedEdge> edges = directed_edges(mesh);

@@ -105,7 +105,8 @@ ElementForm::ElementForm(const Mesh& mesh, const Regions& regions)
 
   node_mass.assign(n, 0.0);
   for (std::int32_t e = 0; e < mesh.triangle_count(); ++e) {
-    const double mass = materials[region_of(regions, e)].density * mesh.thickness * signed_area(mesh, e);
+    const double mass = materials[region_of(regions, e)].density * mesh.thickness_of(mesh.triangles[e]) *
+                        signed_area(mesh, e);
     for (const int node : mesh.triangles[e]) node_mass[kernel_node[node]] += mass / 3;
   }
 
@@ -115,7 +116,7 @@ ElementForm::ElementForm(const Mesh& mesh, const Regions& regions)
   for (const Sorted& s : sorted) {
     bandwidth = std::max(bandwidth, s.nodes[2] - s.nodes[0]);
     const Triangle& t = mesh.triangles[s.triangle];
-    const double scale = std::sqrt(mesh.thickness / (4.0 * signed_area(mesh, s.triangle)));
+    const double scale = std::sqrt(mesh.thickness_of(t) / (4.0 * signed_area(mesh, s.triangle)));
     const auto q1 = gradient_of(mesh, t, 1), q2 = gradient_of(mesh, t, 2);
     gradient.push_back({scale * q1[0], scale * q1[1], scale * q2[0], scale * q2[1]});
     std::array<std::uint32_t, 3> corners{};
