@@ -100,6 +100,7 @@ Json counters_of(const rheo::Counters& counters, const RunReport& report) {
           {"constraint_solves", counters.constraint_solves},
           {"projections", counters.projections},
           {"energy_samples", counters.energy_samples},
+          {"norms", report.norms},
           {"steps_at_rest", counters.steps_at_rest},
           {"flushed_steps", counters.flushed_steps},
           {"factors", counters.factors},

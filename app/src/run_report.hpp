@@ -22,6 +22,7 @@
 //   projections                 velocity jumps where constraints begin
 //   energy_samples              looks at the energies: after every step, with --no-energies at outputs and
 //                               every 16th step only
+//   norms                       of w_lambda and of w_mu over all nodes: at outputs only
 //   steps_at_rest               steps that were not taken because nothing moved and nothing acted
 //   flushed_steps               steps with denormal numbers taken for zero, which are slow: all, on x86-64
 //   color_values                colours computed: nodes times outputs; 0 without pictures and with color =
@@ -67,6 +68,7 @@ struct RunReport {
   std::string scene_text;
   std::string renderer;  // empty: nothing was drawn
   std::int64_t outputs = 0;
+  std::int64_t norms = 0;
   std::int64_t color_values = 0;
   DrawCounters drawing;
   std::vector<Fingerprint> read_files;

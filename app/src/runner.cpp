@@ -245,6 +245,7 @@ void Run::stop(StopSignal signal) {
   if (checkpoint_.exists()) folder_.made(checkpoint_name);
   folder_.made("run.json");
   report_.outputs = progress_made_.outputs;
+  report_.norms = 2 * static_cast<std::int64_t>(records_.history().times().size());
   report_.files = folder_.all_made();
   report_.warnings = records_.warnings();
   report_.exit_status = signal == StopSignal::interrupt ? ExitCode::interrupted : ExitCode::terminated;
@@ -266,6 +267,7 @@ void Run::finish() {
   if (keeps) folder_.made(checkpoint_name);
   folder_.made("run.json");
   report_.outputs = progress_made_.outputs;
+  report_.norms = 2 * static_cast<std::int64_t>(records_.history().times().size());
   report_.files = folder_.all_made();
   report_.warnings = records_.warnings();
   report_.exit_status = report_.divergence ? ExitCode::diverged : ExitCode::done;

@@ -56,10 +56,11 @@ TEST_F(CountersOf, SolvesAreMadeOnlyWhereMassOrConstraintsNeedThem) {
   EXPECT_EQ(of(general, "mass_solves"), 0);
 }
 
-TEST_F(CountersOf, EnergiesAreLookedAtOnlyWhereAskedFor) {
+TEST_F(CountersOf, EnergiesAndNormsAreLookedAtOnlyWhereAskedFor) {
   const std::vector<std::string> fine{"--step", "1e-4"};
   const auto with = counters("run", small_beam(), fine);
   EXPECT_GE(of(with, "energy_samples"), of(with, "steps")) << "work and dissipation are sums over the steps";
+  EXPECT_EQ(of(with, "norms"), 2 * outputs) << "of w_lambda and w_mu, whatever the number of steps";
   const auto without = counters("run", small_beam(), {"--step", "1e-4", "--no-energies"});
   EXPECT_EQ(of(without, "steps"), of(with, "steps"));
   // At each output, at the event at 0.2 s (at an output too), and every 16th step, which guards against

@@ -58,6 +58,7 @@ SKIPS = [
     ("purely elastic: no relaxation", "skip/relaxation/from_u", "skip/relaxation/combined"),
     ("u once a step", "skip/displacement/once", "skip/displacement/every_sweep"),
     ("energies at outputs only", "skip/energies/never", "skip/energies/every_step"),
+    ("norms at outputs only", "skip/norms/never", "skip/norms/every_step"),
     ("a body at rest", "skip/rest/at_rest", "skip/rest/moving"),
     ("at rest under a load", "skip/rest/under_load/at_rest", "skip/rest/under_load/stepped"),
     ("at rest, with a constraint", "skip/rest/constraint/at_rest", "skip/rest/constraint/stepped"),

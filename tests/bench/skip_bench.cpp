@@ -6,6 +6,7 @@
 //   skip/relaxation/...    nothing relaxes: residual forces taken from u; combined, advanced; both
 //   skip/displacement/...  u advanced once a step; in every sweep
 //   skip/energies/...      energies at no step; at every step
+//   skip/norms/...         norms of w_lambda and w_mu at no step; at every step
 //   skip/rest/...          a simulated second of a body at rest; of one that still moves
 //   skip/rest/under_load/...   1k triangles under a traction: at rest; stepped on, as the traction changes by
 //                          nothing that shows; likewise skip/rest/constraint/... with a general constraint
@@ -23,6 +24,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "bench/counters.hpp"
@@ -71,6 +73,35 @@ void constraints(benchmark::State& state, rheo::ConstraintMethod method) {
 
 void energies(benchmark::State& state, bool asked) {
   simulate(state, block(), asked);
+}
+
+enum class Norms { never, at_every_step };
+
+// As many steps one by one, and what history.csv says of each where it is wanted.
+void norms(benchmark::State& state, Norms wanted) {
+  rheo::Scene scene = block();
+  scene.time.duration = 1e6;
+  scene.time.frame_rate = 1e-6;
+  rheo::Simulation simulation(std::move(scene), {.energies = false, .threads = 1});
+  const auto norm = [](std::span<const double> x) {
+    double sum = 0.0;
+    for (const double value : x) sum += value * value;
+    return std::sqrt(sum);
+  };
+  double t = 0.0;
+  bool fine = true;
+  const auto step = [&] {
+    t += simulation.step_bound();
+    fine = !simulation.advance(t) && fine;
+    if (wanted == Norms::never) return;
+    benchmark::DoNotOptimize(norm(simulation.w_lambda()));
+    benchmark::DoNotOptimize(norm(simulation.w_mu()));
+  };
+  for (int k = 0; k < hashed_steps; ++k) step();
+  bench::StateHash().add(simulation).report(state);
+  for (auto _ : state) step();
+  if (!fine) state.SkipWithError("diverged");
+  bench::report_time(state, simulation.scene().mesh.triangle_count());
 }
 
 // Steps of the edge kernel alone, with what it is told of the material.
@@ -298,6 +329,8 @@ BENCHMARK_CAPTURE(displacement, always, rheo::Result::step)
     ->UseRealTime();
 BENCHMARK_CAPTURE(energies, never, false)->Name("skip/energies/never")->UseRealTime();
 BENCHMARK_CAPTURE(energies, always, true)->Name("skip/energies/every_step")->UseRealTime();
+BENCHMARK_CAPTURE(norms, never, Norms::never)->Name("skip/norms/never")->UseRealTime();
+BENCHMARK_CAPTURE(norms, always, Norms::at_every_step)->Name("skip/norms/every_step")->UseRealTime();
 BENCHMARK_CAPTURE(rest, still, false)->Name("skip/rest/at_rest")->UseRealTime();
 BENCHMARK_CAPTURE(rest, moving, true)->Name("skip/rest/moving")->UseRealTime();
 BENCHMARK_CAPTURE(loaded, rest, Load::constant, Bound::free)
