@@ -124,11 +124,10 @@ void integrate(benchmark::State& state, const rheo::Scene& scene, const Case& c,
     evaluations = static_cast<double>(simulation.counters().force_evaluations);
     if (simulation.plan()) trials = simulation.plan()->trial_evaluations;
   }
-  state.counters["error"] = error_of(states, c.exact);
   bench::StateHash hash;
   if (!states.empty())
     for (const std::vector<double>& block : states.back()) hash.add(block);
-  hash.report(state);
+  hash.report(state, error_of(states, c.exact));
   state.counters["evaluations"] = evaluations;
   state.counters["trial_evaluations"] = trials;
   state.counters["time/evaluation"] =
