@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <random>
 
 #include "rheo/error.hpp"
@@ -34,6 +35,22 @@ TEST(StableStep, IsExactForKnownEigenvalues) {
   EXPECT_DOUBLE_EQ(stable_step_of({-1.0, 1.0}, IntegratorKind::euler), 1.0);  // 2 |Re| / |s|^2
   EXPECT_EQ(stable_step_of({0.0, 0.0}, IntegratorKind::rk4), infinite);
   EXPECT_EQ(stable_step_of({1e-3, 0.0}, IntegratorKind::rk4), 0.0);
+}
+
+// What is stable with a step is so with every shorter one: the limit need not be searched for where a step
+// is.
+TEST(StableStep, Rk4RegionIsWholeAlongEveryRayOfTheLeftHalfPlane) {
+  constexpr int rays = 1000;
+  for (int i = 1; i <= rays; ++i) {
+    const std::complex<double> d = std::polar(1.0, M_PI / 2 * (1.0 + static_cast<double>(i) / rays));
+    const double limit = stable_step_of(d, IntegratorKind::rk4);
+    for (double h = 0.02; h < 4.0; h += 0.02) {
+      if (std::abs(h - limit) < 1e-6) continue;
+      const std::complex<double> z = h * d;
+      const double size = std::abs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0))));
+      ASSERT_EQ(size <= 1.0, h < limit) << "ray " << i << ", " << h << " of " << limit;
+    }
+  }
 }
 
 TEST(StableStep, Rk4RegionIsNarrowestBetweenTheAxes) {
