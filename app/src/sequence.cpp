@@ -193,18 +193,21 @@ bool Sequence::draw(const rheo::Scene& scene, const Recorder& recorder, const Hi
   const LoadedEdges edges(scene);
   const bool bare = nothing_to_colour(scene.picture, recorder);
   const ScalarText scalar = scalar_text(scene.picture.color, scene.picture.branch);
-  const render::MeshLayout layout{.rest = rest,
-                                  .triangles = triangles,
-                                  .boundary = boundary,
-                                  .interfaces = interfaces,
-                                  .labels = labels,
-                                  .letters = all_captions(scene),
-                                  .title = scene.title,
-                                  .scalar_name = bare ? "" : scalar.name,
-                                  .scalar_unit = bare ? "" : scalar.unit,
-                                  .range = colour_range(scene.picture, recorder),
-                                  .bounds = scene.picture.bounds.value_or(recorder.bounds()),
-                                  .arrow_scale = largest_traction(recorder, edges)};
+  const render::MeshLayout layout{
+      .rest = rest,
+      .triangles = triangles,
+      .boundary = boundary,
+      .interfaces = interfaces,
+      .labels = labels,
+      .letters = all_captions(scene),
+      .title = scene.title,
+      .scalar_name = bare ? "" : scalar.name,
+      .scalar_unit = bare ? "" : scalar.unit,
+      .range = colour_range(scene.picture, recorder),
+      .bar_room = scene.picture.bounds ? render::BarRoom::fixed : render::BarRoom::as_needed,
+      .bounds = scene.picture.bounds.value_or(recorder.bounds()),
+      .arrow_scale =
+          scene.picture.arrow_scale > 0.0 ? scene.picture.arrow_scale : largest_traction(recorder, edges)};
   impl_->bare = bare;
   render::MeshPicture picture(*impl_->context, layout);
   if (!impl_->draw_frames(picture, recorder, edges, folder, progress, seconds, hooks)) return false;

@@ -76,8 +76,9 @@ std::vector<MoveKey> HandRecord::keys_of(int episode) const {
 void HandRecord::append_to(Scene& scene, double t, double grab_time) const {
   for (std::size_t i = 0; i < episodes_.size(); ++i) {
     const Episode& episode = episodes_[i];
-    const Window window{episode.from, std::min(episode.until, t)};
-    if (!(window.from < window.until)) continue;
+    // What goes on goes on: it is there in the last output too.
+    const Window window{episode.from, episode.until};
+    if (!(window.from < std::min(window.until, t))) continue;
     const std::vector<MoveKey> keys = keys_of(static_cast<int>(i));
     if (episode.kind == Episode::Kind::push) {
       Traction traction;

@@ -34,8 +34,6 @@ void validate(const LiveSettings& settings, const Scene& scene) {
   if (!(settings.grab_time >= 0.0) || !within_size(settings.grab_time))
     refuse(fmt::format("grab_time = {}: a finite number >= 0 (s) is needed", settings.grab_time));
   if (settings.record < 0) refuse(fmt::format("record = {}: 0 or more is needed", settings.record));
-  if (scene.time.constraints == ConstraintMethod::baumgarte && !settings.handles.empty())
-    refuse("constraints = \"baumgarte\": hands hold exactly, use \"auto\"");
   for (const Handle& handle : settings.handles) {
     const std::string where = fmt::format("handle \"{}\":", handle.name);
     const auto check = [&](int node) {
@@ -131,6 +129,7 @@ bool Hands::press(int handle, Vec2 traction) {
 int Hands::grab(int handle, double t, std::span<const double> v) {
   Hand& hand = hands_[handle];
   if (hand.grabbed) return static_cast<int>(hand.held.size());
+  if (!can_hold()) return 0;
   hand.held.clear();
   hand.v0.clear();
   hand.approaching = false;
@@ -298,6 +297,7 @@ bool Hands::add_to(Interval& interval) {
 }
 
 void Hands::prepare(Schedule& schedule) const {
+  if (!can_hold()) return;
   if (schedule.holding_is_free()) {
     schedule.solver_holding(0, {});
     return;

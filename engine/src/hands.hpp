@@ -79,6 +79,8 @@ class Hands {
     int push_episode = HandRecord::none;
   };
 
+  // A hold is exact, and so none where the scene wants Baumgarte's for all.
+  bool can_hold() const { return scene_.time.constraints != ConstraintMethod::baumgarte; }
   void set(Hand& hand, std::span<const int> nodes, std::span<const Edge> edges) const;
   bool begin_hold(Hand& hand, double t0, double t1);
   bool begin_push(int handle, double t0, double t1);

@@ -256,6 +256,9 @@ void validate(const PictureSettings& picture) {
   if (picture.sheet.size() > most_sheet_times)
     refuse(where, fmt::format("sheet = {} times: at most {} shapes are drawn", picture.sheet.size(),
                               most_sheet_times));
+  if (!(picture.arrow_scale >= 0.0) || !within_size(picture.arrow_scale))
+    refuse(where, fmt::format("arrow_scale = {}: a traction (Pa) > 0, or 0 for the run's largest",
+                              picture.arrow_scale));
   if (picture.branch < 0)
     refuse(where, fmt::format("branch = {}: 0 for all, or a Maxwell branch from 1 on", picture.branch));
   const auto [low, high] = picture.range;

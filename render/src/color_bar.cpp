@@ -19,10 +19,17 @@ Ticks bar_ticks(const ColorBar& bar, int most) {
   return linear_ticks(low, high, most);
 }
 
-std::string bar_unit(const ColorBar& bar, const Ticks& ticks) {
-  if (ticks.exponent == 0) return bar.unit;
-  return fmt::format("10^{} {}", ticks.exponent, bar.unit);
+std::string with_power(int exponent, const std::string& unit) {
+  return fmt::format("10^{} {}", exponent, unit);
 }
+
+std::string bar_unit(const ColorBar& bar, const Ticks& ticks) {
+  return ticks.exponent == 0 ? bar.unit : with_power(ticks.exponent, bar.unit);
+}
+
+// The longest that linear_ticks() writes of a range from 0 on, and the widest power.
+constexpr const char* widest_number = "00000";
+constexpr int widest_exponent = -88;
 
 int bar_tick_count(const Canvas& canvas, float height) {
   return std::clamp(static_cast<int>(height / (2.2f * canvas.text_size(TextSize::small))), 2, 9);
@@ -49,11 +56,14 @@ void thin_out(const Canvas& canvas, const ColorBar& bar, float height, Ticks& ti
 float color_bar_width(const Canvas& canvas, const ColorBar& bar) {
   const float text = canvas.text_size(TextSize::small);
   const Ticks ticks = bar_ticks(bar, bar_tick_count(canvas, 0.7f * static_cast<float>(canvas.height())));
-  float numbers = 0;
+  const bool fixed = bar.room == BarRoom::fixed;
+  float numbers = fixed ? canvas.text_width(TextSize::small, widest_number) : 0.0f;
   for (const std::string& s : ticks.labels)
     numbers = std::max(numbers, canvas.text_width(TextSize::small, s));
-  const float name = std::max(canvas.label_width(TextSize::normal, bar.name),
-                              canvas.label_width(TextSize::small, bar_unit(bar, ticks)));
+  float name = std::max(canvas.label_width(TextSize::normal, bar.name),
+                        canvas.label_width(TextSize::small, bar_unit(bar, ticks)));
+  if (fixed)
+    name = std::max(name, canvas.label_width(TextSize::small, with_power(widest_exponent, bar.unit)));
   return std::max(1.6f * text + numbers, name);
 }
 

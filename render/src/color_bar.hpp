@@ -8,12 +8,14 @@
 #include <string>
 
 #include "canvas.hpp"
+#include "render/mesh_picture.hpp"
 
 namespace render {
 
 struct ColorBar {
   std::string name, unit;
   std::array<double, 2> range{};
+  BarRoom room = BarRoom::as_needed;
 };
 
 // What the bar takes of a picture's width, so that a layout can leave room for it.

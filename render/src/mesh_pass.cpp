@@ -64,6 +64,7 @@ MeshPass::MeshPass(const Gl& gl, const MeshLayout& layout, const BoundaryChains&
       width_(width),
       height_(height),
       node_count_(layout.rest.size() / 2),
+      rest_positions_(layout.rest.begin(), layout.rest.end()),
       range_(layout.range),
       plain_(theme::light.plain_fill),
       wire_(theme::light.wire),
@@ -85,13 +86,10 @@ MeshPass::MeshPass(const Gl& gl, const MeshLayout& layout, const BoundaryChains&
     throw std::runtime_error(fmt::format("{} nodes are more than this driver's textures hold ({})",
                                          node_count_, row * static_cast<std::size_t>(limit)));
   }
-  const std::array<double, 4> b = usable_bounds(layout.bounds);
-  origin_ = {(b[0] + b[2]) / 2, (b[1] + b[3]) / 2};
-  reach_ = 1e3 * std::max(b[2] - b[0], b[3] - b[1]);
   colored_ = layout.scalar_name.empty() ? 0.0f : 1.0f;
   make_texture(nodes_);
   make_texture(rest_);
-  upload(rest_, layout.rest, {});
+  set_bounds(usable_bounds(layout.bounds));
   upload_colors();
   upload_triangles(layout.triangles, layout.rest);
   boundary_length_ = upload_lines(boundary, layout.rest, boundary_);
@@ -104,6 +102,14 @@ void MeshPass::make_texture(NodeTexture& nodes) const {
   sample_nearest(gl_, GL_NEAREST);
   gl_.TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, row, static_cast<GLsizei>(row_count(node_count_)), 0, GL_RGBA,
                  GL_FLOAT, nullptr);
+}
+
+// Coordinates of single precision are measured from the middle of what is seen: fine there, and the same
+// however one came to see it.
+void MeshPass::set_bounds(const std::array<double, 4>& b) {
+  origin_ = {(b[0] + b[2]) / 2, (b[1] + b[3]) / 2};
+  reach_ = 1e3 * std::max(b[2] - b[0], b[3] - b[1]);
+  upload(rest_, rest_positions_, {});
 }
 
 void MeshPass::set_nodes(std::span<const double> positions, std::span<const double> scalar) {

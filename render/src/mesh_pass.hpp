@@ -31,6 +31,7 @@ class MeshPass {
   MeshPass(const Gl& gl, const MeshLayout& layout, const BoundaryChains& boundary, int width, int height);
 
   // From the next set_nodes() on; the layout's until then.
+  void set_bounds(const std::array<double, 4>& bounds);
   void set_range(const std::array<double, 2>& range) { range_ = range; }
   void set_colors(Color plain, Color wire) {
     plain_ = plain;
@@ -81,6 +82,7 @@ class MeshPass {
   int width_;
   int height_;
   std::size_t node_count_;
+  std::vector<double> rest_positions_;
   std::array<double, 2> origin_{};
   double reach_ = 1;  // coordinates are clamped to this, far outside of any picture [m]
   std::array<double, 2> range_{};

@@ -33,7 +33,7 @@ struct Body {
   explicit Body(const MeshLayout& layout)
       : boundary(chain_boundary(layout.boundary)),
         title(layout.title),
-        bar{layout.scalar_name, layout.scalar_unit, layout.range},
+        bar{layout.scalar_name, layout.scalar_unit, layout.range, layout.bar_room},
         bounds(usable_bounds(layout.bounds)),
         arrow_scale(layout.arrow_scale),
         labels(layout.labels) {}
@@ -144,24 +144,40 @@ struct MeshPicture::Impl {
     arrows.draw(canvas, camera, frame, body.arrow_scale, longest_arrow, value_area);
   }
 
-  // Those that have room: one in a square of the size of a number.
+  // Those that have room beside the ones before them: their boxes, which are of one height and found by the
+  // square that their corner is in, do not touch.
   void draw_node_numbers(const Camera& camera, const MeshFrame& frame) {
-    const float text = canvas.text_size(TextSize::small);
-    const auto columns = static_cast<std::size_t>(static_cast<float>(canvas.width()) / (2.2f * text)) + 1;
-    const auto rows = static_cast<std::size_t>(static_cast<float>(canvas.height()) / (1.2f * text)) + 1;
-    std::vector<char> taken(columns * rows, 0);
-    for (std::size_t i = 0; i + 1 < frame.positions.size(); i += 2) {
-      const Point p = camera.pixel(frame.positions[i], frame.positions[i + 1]);
+    const float text = canvas.text_size(TextSize::small), dot = 2.5f * canvas.unit();
+    const std::size_t nodes = frame.positions.size() / 2;
+    const float widest = canvas.text_width(TextSize::small, std::to_string(nodes)) + 0.3f * text + dot;
+    const float square = std::max(widest, 1.2f * text + dot);
+    const auto columns = static_cast<std::ptrdiff_t>(static_cast<float>(canvas.width()) / square) + 1;
+    const auto rows = static_cast<std::ptrdiff_t>(static_cast<float>(canvas.height()) / square) + 1;
+    std::vector<std::vector<Rect>> taken(static_cast<std::size_t>(columns * rows));
+    const auto is_free = [&](const Rect& box, std::ptrdiff_t column, std::ptrdiff_t row) {
+      for (std::ptrdiff_t r = std::max<std::ptrdiff_t>(row - 1, 0); r < std::min(row + 2, rows); ++r)
+        for (std::ptrdiff_t c = std::max<std::ptrdiff_t>(column - 1, 0); c < std::min(column + 2, columns);
+             ++c)
+          for (const Rect& other : taken[static_cast<std::size_t>(r * columns + c)])
+            if (box.x0 < other.x1 && other.x0 < box.x1 && box.y0 < other.y1 && other.y0 < box.y1)
+              return false;
+      return true;
+    };
+    for (std::size_t i = 0; i < nodes; ++i) {
+      const Point p = camera.pixel(frame.positions[2 * i], frame.positions[2 * i + 1]);
       if (!(p.x >= 0 && p.y >= 0 && p.x < static_cast<float>(canvas.width()) &&
             p.y < static_cast<float>(canvas.height())))
         continue;
-      char& place = taken[static_cast<std::size_t>(p.y / (1.2f * text)) * columns +
-                          static_cast<std::size_t>(p.x / (2.2f * text))];
-      if (place != 0) continue;
-      place = 1;
-      canvas.disk(p, 2.5f * canvas.unit(), canvas.palette().ink);
+      const std::string number = std::to_string(i);
+      const Rect box{p.x - dot, p.y - 1.2f * text,
+                     p.x + 0.3f * text + canvas.text_width(TextSize::small, number), p.y + dot};
+      const auto column = static_cast<std::ptrdiff_t>(p.x / square),
+                 row = static_cast<std::ptrdiff_t>(p.y / square);
+      if (!is_free(box, column, row)) continue;
+      taken[static_cast<std::size_t>(row * columns + column)].push_back(box);
+      canvas.disk(p, dot, canvas.palette().ink);
       canvas.text({p.x + 0.3f * text, p.y - 0.6f * text}, Align::left, TextSize::small, canvas.palette().ink,
-                  std::to_string(i / 2));
+                  number);
     }
   }
 
@@ -259,6 +275,8 @@ void MeshPicture::read(Image& out) const {
 void MeshPicture::set_view(const MeshView& view) {
   Impl& m = *impl_;
   if (m.view == view) return;
+  m.context.make_current();
+  if (view.bounds != m.view.bounds) m.pass.set_bounds(usable_bounds(view.bounds));
   m.view = view;
   m.body.bounds = usable_bounds(view.bounds);
   m.body.arrow_scale = view.arrow_scale;

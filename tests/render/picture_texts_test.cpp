@@ -312,5 +312,49 @@ TEST_P(PictureTexts, AndNeighboursAreClearOfTheArrowsOfASheet) {
   }
 }
 
+// On meshes from coarse to dense the numbers that are shown stand clear of each other.
+TEST_F(MeshPictures, NodeNumbersThatHaveRoomAreShown) {
+  for (const int nodes : {3, 9, 33, 101}) {
+    const Body body = bodies::rectangle(1.0, 0.5, nodes, nodes);
+    render::MeshPicture picture(*context_, body.layout());
+    render::MeshView view = picture.view();
+    view.node_numbers = render::Show::yes;
+    picture.set_view(view);
+    picture.draw(body.frame());
+    std::vector<render::TextBox> numbers;
+    for (const render::TextBox& t : picture.texts())
+      if (t.text.find_first_not_of("0123456789") == std::string::npos) numbers.push_back(t);
+    EXPECT_GE(numbers.size(), std::min<std::size_t>(body.nodes(), 50)) << nodes;
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const render::TextBox &a = numbers[i], &b = numbers[j];
+        ASSERT_TRUE(a.x0 >= b.x1 || b.x0 >= a.x1 || a.y0 >= b.y1 || b.y0 >= a.y1)
+            << nodes << ": " << a.text << " lies on " << b.text;
+      }
+    }
+  }
+}
+
+// Whatever the numbers of a range from 0 are, the body stays where it is.
+TEST_F(MeshPictures, AreNotMovedByTheColourBarsNumbers) {
+  const Body body = bodies::rectangle(1.0, 0.5, 5, 3);
+  for (const Size size : {Size{240, 160}, Size{640, 360}, Size{1280, 720}}) {
+    render::MeshLayout layout = coloured(body);
+    layout.bar_room = render::BarRoom::fixed;
+    render::MeshPicture picture(*context_, layout, size.width, size.height);
+    const render::PlaneInPicture first = picture.plane();
+    for (int power = -15; power <= 15; ++power) {
+      for (const double digit : {1.0, 1.5, 2.0, 2.37, 3.0, 4.0, 5.0, 6.0, 8.0, 9.99}) {
+        render::MeshView view = picture.view();
+        view.range = {0.0, digit * std::pow(10.0, power)};
+        picture.set_view(view);
+        const render::PlaneInPicture now = picture.plane();
+        ASSERT_EQ(now.scale, first.scale) << name_of(size) << " up to " << view.range[1];
+        ASSERT_EQ(now.at_x, first.at_x) << name_of(size) << " up to " << view.range[1];
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mesh_pictures

@@ -108,6 +108,33 @@ TEST(ViewCore, NothingToGrabWhereTheSceneHoldsAll) {
   EXPECT_THAT(core.message(), HasSubstr("nothing to grab"));
 }
 
+// A traction needs no constraint, and a hold is exact, which such a scene asks not to be.
+TEST(ViewCore, UnderBaumgarteABodyIsPushedButNotGrabbed) {
+  rheo::Scene scene = block();
+  scene.time.constraints = rheo::ConstraintMethod::baumgarte;
+  Core core(scene, {});
+  ASSERT_TRUE(core.begin(Hold::push, right_of(core.scene()))) << core.message();
+  core.aim({300.0, 0.0}, 1.0);
+  run(core, 300);
+  const double far = corner_x(core);
+  EXPECT_GT(far, 1e-4);
+  core.let_go();
+  run(core, 500);
+  EXPECT_LT(corner_x(core), 0.95 * far);
+  EXPECT_FALSE(core.begin(Hold::grab, right_of(core.scene())));
+  EXPECT_THAT(core.message(), HasSubstr("push"));
+  EXPECT_THAT(core.message(), HasSubstr("baumgarte"));
+  run(core, 10);
+  // What was done is a scene again.
+  const auto session = core.session();
+  ASSERT_TRUE(session) << core.message();
+  rheo::Simulation again(rheo::parse_scene(rheo::scene_text(*session), "session.toml", "."));
+  for (std::int64_t k = 0; k < rheo::output_count(again.scene().time); ++k)
+    ASSERT_FALSE(again.advance(rheo::output_time(again.scene().time, k)));
+  const auto u = again.u(), live = core.live().simulation().u();
+  EXPECT_TRUE(std::equal(u.begin(), u.end(), live.begin(), live.end()));
+}
+
 TEST(ViewCore, ARefusedStepNamesTheLimitAndTheOldOneGoesOn) {
   Core core(block(), {});
   run(core, 10);

@@ -128,6 +128,7 @@ TEST(ViewUi, ItsPictureIsTheRenderersOwn) {
                                        .scalar_name = "|w_lambda|",
                                        .scalar_unit = "Pa m",
                                        .range = {0.0, 8.0},
+                                       .bar_room = render::BarRoom::fixed,
                                        .bounds = user.ui.picture().bounds(),
                                        .arrow_scale = user.ui.picture().mesh_picture().view().arrow_scale});
   picture.draw({.positions = d.positions, .scalar = d.w_lambda, .held = d.held, .arrows = {}, .time = d.t},

@@ -1,14 +1,15 @@
 #!/bin/sh
-# The real window under Xvfb, driven by xdotool: a drag, a slider, sizes, out of sight and back, a saved session,
-# the end. Exit code 77: something that this needs is not installed.
+# The real window under Xvfb, driven by xdotool, with a window manager (twm): a drag, a slider, sizes, minimised and
+# back, a saved session, the end by its key and by the window manager. Exit code 77: something that this needs is not
+# installed.
 #
 #   sh tests/view/window.sh RHEO FOLDER
 set -u
 rheo=$1
 folder=$2
-for need in Xvfb xdotool import convert; do
+for need in Xvfb xdotool import convert twm; do
   command -v "$need" >/dev/null || {
-    echo "skipped: $need is missing (Debian packages xvfb, xdotool, imagemagick)"
+    echo "skipped: $need is missing (Debian packages xvfb, xdotool, imagemagick, twm)"
     exit 77
   }
 done
@@ -19,8 +20,10 @@ done
 rm -rf "$folder"
 mkdir -p "$folder" && cd "$folder" || exit 1
 xvfb=
+manager=
 program=
 finish() {
+  [ -z "$manager" ] || kill "$manager" 2>/dev/null
   [ -z "$program" ] || kill "$program" 2>/dev/null
   [ -z "$xvfb" ] || kill "$xvfb" 2>/dev/null
 }
@@ -55,7 +58,7 @@ env -u WAYLAND_DISPLAY DISPLAY= "$rheo" view block.toml >log 2>&1
 [ $? = 2 ] || fail "no display: another exit code than 2"
 [ "$(wc -l <log)" = 1 ] && grep -q "rheo render block.toml" log || fail "no display: not one line that names rheo render"
 
-Xvfb -displayfd 3 -screen 0 2600x1500x24 -nolisten tcp 3>display 2>xvfb.log &
+Xvfb -displayfd 3 -screen 0 2800x1700x24 -nolisten tcp 3>display 2>xvfb.log &
 xvfb=$!
 waited=0
 until [ -s display ]; do
@@ -66,17 +69,40 @@ done
 DISPLAY=:$(cat display)
 export DISPLAY
 
-"$rheo" view block.toml -o saved --close-after 120 >log 2>&1 &
-program=$!
-window=
-waited=0
-until [ -n "$window" ]; do
-  sleep 0.2
-  window=$(xdotool search --onlyvisible --name "Block - rheo" 2>/dev/null | head -n 1)
-  waited=$((waited + 1))
-  [ $waited -lt 300 ] || fail "no window"
-  kill -0 "$program" 2>/dev/null || fail "the program has ended"
-done
+# Windows are placed at once; Alt with a click closes one. The one font is the server's own.
+cat >twmrc <<'RC'
+TitleFont "fixed"
+ResizeFont "fixed"
+MenuFont "fixed"
+IconFont "fixed"
+IconManagerFont "fixed"
+RandomPlacement
+NoGrabServer
+Button1 = m : window : f.delete
+RC
+LC_ALL=C twm -f twmrc >twm.log 2>&1 &
+manager=$!
+sleep 1
+kill -0 "$manager" 2>/dev/null || fail "twm does not start: $(cat twm.log)"
+
+# start SCENE TITLE ARGUMENT...: the program in $program, its window in $window.
+start() {
+  scene=$1
+  title=$2
+  shift 2
+  "$rheo" view "$scene" "$@" >log 2>&1 &
+  program=$!
+  window=
+  waited=0
+  until [ -n "$window" ]; do
+    sleep 0.2
+    window=$(xdotool search --onlyvisible --name "^$title - rheo$" 2>/dev/null | tail -n 1)
+    waited=$((waited + 1))
+    [ $waited -lt 300 ] || fail "no window"
+    kill -0 "$program" 2>/dev/null || fail "the program has ended"
+  done
+}
+start block.toml Block -o saved --close-after 180
 colours() { # how many a picture has
   import -window "$window" "$1.png" && convert "$1.png" -format %k info:
 }
@@ -142,20 +168,13 @@ for size in "300 200" "2560 1440" "1280 720"; do
   [ "$(colours "$name")" -gt 30 ] || fail "nothing to see at $size"
   [ "$(convert "$name.png" -format '%w %h' info:)" = "$size" ] || fail "another size than $size"
 done
-xdotool windowunmap "$window"
-sleep 1
-timeout 5 xdotool windowmap "$window"
-sleep 1
-kill -0 "$program" 2>/dev/null || fail "the program has ended while out of sight"
-
-# Out of sight it has lost the focus, and no window manager gives it back.
+xdotool windowfocus "$window" mousemove --window "$window" 700 300 key ctrl+q
 waited=0
-while kill -0 "$program" 2>/dev/null && [ $waited -lt 20 ]; do
-  timeout 5 xdotool windowfocus "$window" mousemove --window "$window" 700 300 key ctrl+q 2>/dev/null
-  sleep 0.5
+while kill -0 "$program" 2>/dev/null; do
+  sleep 0.2
   waited=$((waited + 1))
+  [ $waited -lt 100 ] || fail "it does not end by its key"
 done
-[ $waited -lt 20 ] || fail "it does not end by its key"
 wait "$program"
 code=$?
 program=
@@ -168,4 +187,65 @@ grep -Eq '^[0-9]+ frames in [0-9.]+ s, median [0-9.]+ ms, 99th percentile [0-9.]
 hash=$(sed -n 's/^# state at its end.*: //p' saved/session_001.toml)
 [ -n "$hash" ] && grep -q "\"state_hash\": \"$hash\"" again/run.json || fail "run again, the session ends elsewhere than at $hash"
 cat log
+
+# Minimised: it draws nothing and goes on; afterwards the picture is back. A body that is always pulled to and fro.
+sed 's/Block/Pulled/' block.toml >pulled.toml
+cat >>pulled.toml <<SCENE
+[[traction]]
+edges = "right"
+keys = [$(awk 'BEGIN { for (k = 0; k < 400; ++k) printf "[%g, %d, 0], ", 0.25 * k, k % 2 ? 200 : -200 }')]
+SCENE
+sed -i 's/^duration = 5$/duration = 100/' pulled.toml
+start pulled.toml Pulled
+drawing() { awk '{ print $14 + $15 }' "/proc/$program/task/$program/stat"; } # of the thread that draws [1/100 s]
+waited=0
+until [ "$(colours pulled)" -gt 50 ]; do
+  sleep 0.2
+  waited=$((waited + 1))
+  [ $waited -lt 100 ] || fail "the window stays empty"
+done
+before=$(drawing)
+sleep 4
+shown=$(($(drawing) - before))
+xdotool windowminimize "$window"
+sleep 1
+xdotool search --onlyvisible --name "^Pulled - rheo$" 2>/dev/null | grep -q "$window" && fail "it is not minimised"
+before=$(drawing)
+all=$(ticks)
+sleep 4
+hidden=$(($(drawing) - before))
+all=$(($(ticks) - all))
+echo "drawing: $shown hundredths of a second in 4 s shown, $hidden in 4 s minimised; all threads then $all"
+[ "$shown" -gt 4 ] || fail "shown, it draws nothing of a body that moves"
+[ $((4 * hidden)) -lt "$shown" ] || fail "minimised, it draws: $hidden hundredths of a second against $shown"
+[ "$all" -gt "$hidden" ] || fail "minimised, the physics stands"
+kill -0 "$program" 2>/dev/null || fail "minimised, the program has ended"
+xdotool windowmap "$window"
+waited=0
+until [ "$(colours restored)" -gt 50 ]; do
+  sleep 0.2
+  waited=$((waited + 1))
+  [ $waited -lt 100 ] || fail "restored, the window stays empty"
+done
+before=$(drawing)
+sleep 1
+[ $(($(drawing) - before)) -gt 1 ] || fail "restored, it draws nothing"
+
+# Closed by the window manager.
+xdotool mousemove --window "$window" 700 300 keydown alt click 1 keyup alt
+waited=0
+while kill -0 "$program" 2>/dev/null; do
+  sleep 0.2
+  waited=$((waited + 1))
+  [ $waited -lt 100 ] || fail "it does not close"
+done
+wait "$program"
+code=$?
+program=
+[ $code = 0 ] || fail "closed, exit code $code"
+grep -q ' frames in ' log || fail "closed, no summary line"
+
+# By itself, and in silence.
+"$rheo" view block.toml --close-after 1 --quiet >log 2>&1 || fail "--close-after: exit code $?"
+[ -s log ] && fail "--quiet: it writes"
 echo passed

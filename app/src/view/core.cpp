@@ -121,12 +121,11 @@ void Core::refuse(const std::string& why) {
   say(why.substr(0, advice));
 }
 
-rheo::LiveSettings Core::live_settings(const rheo::Scene& scene, const CoreSettings& settings) {
+rheo::LiveSettings Core::live_settings(const CoreSettings& settings) {
   rheo::LiveSettings live;
   live.rate = settings.rate;
   live.simulation = settings.simulation;
   live.record = record_room;
-  if (scene.time.constraints == rheo::ConstraintMethod::baumgarte) return live;  // hands hold exactly
   live.handles.resize(handle_count);
   for (rheo::Handle& handle : live.handles) {
     handle.name = "hand";
@@ -139,7 +138,7 @@ rheo::LiveSettings Core::live_settings(const rheo::Scene& scene, const CoreSetti
 void Core::start(rheo::Scene scene, const rheo::SavedState* saved) {
   rheo::validate(scene);
   auto shared = std::make_shared<const rheo::Scene>(std::move(scene));
-  rheo::LiveSettings settings = live_settings(*shared, settings_);
+  rheo::LiveSettings settings = live_settings(settings_);
   const auto make = [&] {
     return saved ? std::make_unique<rheo::Live>(*shared, settings, *saved)
                  : std::make_unique<rheo::Live>(*shared, settings);
@@ -182,8 +181,8 @@ void Core::say(std::string message) {
 bool Core::begin(Hold hold, const std::vector<rheo::Edge>& edges) {
   let_go();
   if (hold == Hold::nothing || edges.empty() || diverged_) return false;
-  if (live_->handle_count() == 0) {
-    say("constraints = \"baumgarte\" leaves no room for a hand, which holds exactly: set \"auto\"");
+  if (hold == Hold::grab && scene_->time.constraints == rheo::ConstraintMethod::baumgarte) {
+    say("constraints = \"baumgarte\" leaves no room for a grab, which holds exactly: push, or set \"auto\"");
     return false;
   }
   std::vector<rheo::Edge> few(edges.begin(),
@@ -349,8 +348,10 @@ void Core::show(Display& display) {
   const std::span<const double> u = simulation.u();
   display.positions.resize(u.size());
   for (std::size_t i = 0; i < u.size() / 2; ++i) {
-    display.positions[2 * i] = scene_->mesh.points[i].x + u[2 * i];
-    display.positions[2 * i + 1] = scene_->mesh.points[i].y + u[2 * i + 1];
+    // In the precision in which a run keeps its frames: the same pixels.
+    display.positions[2 * i] = scene_->mesh.points[i].x + static_cast<double>(static_cast<float>(u[2 * i]));
+    display.positions[2 * i + 1] =
+        scene_->mesh.points[i].y + static_cast<double>(static_cast<float>(u[2 * i + 1]));
   }
   display.velocities.assign(simulation.v().begin(), simulation.v().end());
   magnitudes(simulation.w_lambda(), display.w_lambda);

@@ -67,7 +67,7 @@ class Core {
   const rheo::Live& live() const { return *live_; }
 
  private:
-  static rheo::LiveSettings live_settings(const rheo::Scene& scene, const CoreSettings& settings);
+  static rheo::LiveSettings live_settings(const CoreSettings& settings);
   void start(rheo::Scene scene, const rheo::SavedState* saved);
   void begin_again();
   void watch_for_rest();

@@ -39,14 +39,15 @@ void Ui::draw_overlay() {
     const auto [px, py] = picture_.plane().pixel(x, y);
     return ImVec2(x0 + static_cast<float>(px), y0 + static_cast<float>(py));
   };
+  const float most_width = std::max(8.0f * text, x1 - x0 - 1.6f * text);  // of words; longer ones take lines
   const auto plate = [&](ImVec2 at, const std::string& words, ImU32 ink, ImU32 paper) {
-    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+    const ImVec2 size = ImGui::CalcTextSize(words.c_str(), nullptr, false, most_width);
     const float bar = style_.color == rheo::ColorBy::none ? 0.4f : 6.5f;  // clear of the colour bar's numbers
     at.x = std::clamp(at.x, x0 + 0.4f * text, std::max(x0 + 0.4f * text, x1 - size.x - bar * text));
     at.y = std::clamp(at.y, y0 + 0.3f * text, std::max(y0 + 0.3f * text, y1 - size.y - 0.3f * text));
     list.AddRectFilled({at.x - 0.4f * text, at.y - 0.2f * text},
                        {at.x + size.x + 0.4f * text, at.y + size.y + 0.2f * text}, paper, 4.0f * s);
-    list.AddText(at, ink, words.c_str());
+    list.AddText(nullptr, 0.0f, at, ink, words.c_str(), nullptr, most_width);
     labels_.push_back(words);
   };
   const ImU32 paper = style_.dark ? IM_COL32(24, 27, 33, 225) : IM_COL32(252, 252, 253, 225);
@@ -91,7 +92,9 @@ void Ui::draw_overlay() {
   }
 
   if (const std::string beyond = beyond_linear(d.linearity); !beyond.empty())
-    plate({x0 + 0.8f * text, y1 - 3.4f * text}, beyond, ink, paper);
+    plate({x0 + 0.8f * text,
+           y1 - 2.4f * text - ImGui::CalcTextSize(beyond.c_str(), nullptr, false, most_width).y},
+          beyond, ink, paper);
   // In plain sight whether the clock on the picture is the user's.
   std::string clock = fmt::format("real time x{:.2f}", d.real_time_factor);
   bool slow = false;

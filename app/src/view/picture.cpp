@@ -106,8 +106,9 @@ void Picture::build(const Display& display, const PictureStyle& style, int width
                                                                       .scalar_name = scalar.name,
                                                                       .scalar_unit = scalar.unit,
                                                                       .range = range_,
+                                                                      .bar_room = render::BarRoom::fixed,
                                                                       .bounds = bounds_,
-                                                                      .arrow_scale = arrow_scale_},
+                                                                      .arrow_scale = arrow_scale()},
                                                    width, height);
 }
 
@@ -146,7 +147,7 @@ void Picture::draw(const Display& display, const PictureStyle& style, int width,
   const auto shown = [](bool yes) { return yes ? render::Show::yes : render::Show::no; };
   picture_->set_view({.range = range_,
                       .bounds = bounds_,
-                      .arrow_scale = arrow_scale_,
+                      .arrow_scale = arrow_scale(),
                       .shade = style.dark ? render::Shade::dark : render::Shade::light,
                       .mesh_lines = shown(style.mesh_lines),
                       .rest_shape = shown(style.rest_shape),

@@ -44,6 +44,9 @@ class Picture {
   }
   const std::array<double, 4>& bounds() const { return bounds_; }
   const std::array<double, 2>& range() const { return range_; }
+  // Of the longest arrow [Pa]. Never 0: the room that arrows take is left from the beginning, for a first
+  // push must not move the picture.
+  double arrow_scale() const { return arrow_scale_ > 0.0 ? arrow_scale_ : 1.0; }
   const render::PlaneInPicture& plane() const { return plane_; }
 
  private:

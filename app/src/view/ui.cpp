@@ -22,7 +22,7 @@ constexpr std::size_t most_times = 240;            // frames that medians are of
 constexpr double recorded_rate = 60.0;             // frames a second of the user's time
 constexpr int panel_room = 760, strip_room = 520;  // windows below show no panels by themselves
 constexpr float font_pixels = 15.0f;
-constexpr float largest_scale = 4.0f;
+constexpr float largest_scale = 4.0f, smallest_share = 0.75f;
 
 void keep(std::deque<double>& values, double value, std::size_t most) {
   values.push_back(value);
@@ -43,7 +43,10 @@ Percentiles percentiles_of(const std::deque<double>& values) {
 
 float interface_scale(float of_display, int width, int height) {
   const float room = std::min(static_cast<float>(width) / 1280.0f, static_cast<float>(height) / 720.0f);
-  return std::clamp(std::floor(8.0f * room) / 8.0f, of_display, std::max(of_display, largest_scale));
+  // Beside a small picture without panels smaller words do.
+  const bool small = room < 0.5f * of_display;
+  return std::clamp(std::floor(8.0f * room) / 8.0f, small ? smallest_share * of_display : of_display,
+                    std::max(of_display, largest_scale));
 }
 
 Draft::Draft(const rheo::Scene& scene)
@@ -218,6 +221,7 @@ void Ui::save_session() {
   seen.color = style_.color;
   seen.size = {area_[2], area_[3]};
   seen.bounds = picture_.bounds();
+  seen.arrow_scale = picture_.arrow_scale();
   seen.range_auto = !(picture_.range()[0] < picture_.range()[1]);
   if (!seen.range_auto) seen.range = picture_.range();
   physics_.post([folder = settings_.folder, seen](Core& core) {
@@ -225,6 +229,7 @@ void Ui::save_session() {
       scene->picture.color = seen.color;
       scene->picture.size = seen.size;
       scene->picture.bounds = seen.bounds;
+      scene->picture.arrow_scale = seen.arrow_scale;
       scene->picture.range_auto = seen.range_auto;
       scene->picture.range = seen.range;
       const std::string hash = state_hash(core.live().simulation());

@@ -11,6 +11,7 @@
 //   tick   k ends at k / rate; the scene's own loads, moves and events go on as scripted
 //
 // Tractions with keys and hermite moves of a scene say the same: session() is that scene.
+// Hands hold exactly: where a scene has constraints = "baumgarte" they push, and a grab holds nothing.
 // The stable step is that of the scene: whatever is held beside its constraints lowers the largest frequency
 // (eigenvalues of a held body interlace with those of the free one).
 //
@@ -23,8 +24,8 @@
 //          and wake each other (futex, sched_yield), from the second tick on. Where another program has a
 //          thread's processor a tick can take milliseconds; one thread then makes the next ones alone, so
 //          that this happens in few of them. Excluded only by one thread (SimulationOptions::threads = 1).
-// Errors   the constructor: Error::Kind::input as Simulation's, handles with nodes that are not there,
-//          constraints = "baumgarte" (hands hold exactly). Later: false for what cannot be done (not finite,
+// Errors   the constructor: Error::Kind::input as Simulation's, handles with nodes that are not there. Later:
+// false for what cannot be done (not finite,
 //          beyond the capacity, not grabbed), a Divergence from tick, never an exception.
 // Threads  one Live is used by one thread at a time
 // Not here clocks and waiting (the caller's), other materials between ticks, contact
@@ -83,8 +84,8 @@ class Live {
   // The same at once, of a handle that pushes nothing: for a hand that goes on where another simulation was
   // left.
   bool press(int handle, Vec2 traction);
-  // How many degrees of freedom it holds now: not those that the scene holds now or later, or another hand
-  // does, or a [[constraint]] binds.
+  // How many degrees of freedom it holds now: none under constraints = "baumgarte", and not those that the
+  // scene holds now or later, or another hand does, or a [[constraint]] binds.
   int grab(int handle);
   bool drag(int handle, Vec2 displacement);
   bool drag(int handle, Vec2 displacement, Vec2 velocity);

@@ -130,6 +130,7 @@ struct PictureSettings {
   bool range_auto = true;
   std::array<double, 2> range{0.0, 1.0};  // where not automatic
   std::array<int, 2> size{1280, 720};     // pixels
+  double arrow_scale = 0.0;               // traction of the longest arrow [Pa]; 0: the run's largest
   std::optional<std::array<double, 4>>
       bounds;                 // x0, y0, x1, y1 that pictures show [m]; none: the whole motion
   std::vector<double> sheet;  // times of the sheet's shapes, strictly rising [s], at most most_sheet_times;

@@ -106,7 +106,7 @@ class SceneReader {
 
   void read_render() {
     const TableReader render =
-        tables_.table("render", {"color", "branch", "range", "size", "bounds", "sheet"});
+        tables_.table("render", {"color", "branch", "range", "size", "bounds", "arrow_scale", "sheet"});
     static const std::array<std::string, 5> colors{"w_lambda", "w_mu", "w", "speed", "none"};
     PictureSettings& p = scene_.picture;
     p.color = static_cast<ColorBy>(render.choice("color", colors, 0));
@@ -147,6 +147,7 @@ class SceneReader {
                                    max_picture_side, "whole number of pixels");
       }
     }
+    p.arrow_scale = render.number("arrow_scale", {.low = 0.0, .low_allowed = false, .unit = "Pa"}, 0.0);
     if (const TomlValue* bounds = render.find("bounds")) read_bounds(render, *bounds);
     if (const TomlValue* sheet = render.find("sheet")) read_sheet(render, *sheet);
     render.locate([&] { validate(p); });

@@ -213,6 +213,7 @@ class SceneWriter {
     if (p.bounds)
       line("bounds = [{}, {}, {}, {}]", number((*p.bounds)[0]), number((*p.bounds)[1]),
            number((*p.bounds)[2]), number((*p.bounds)[3]));
+    if (p.arrow_scale != 0.0) line("arrow_scale = {}", number(p.arrow_scale));
     if (!p.range_auto) line("range = [{}, {}]", number(p.range[0]), number(p.range[1]));
   }
 

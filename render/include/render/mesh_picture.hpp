@@ -28,6 +28,10 @@ struct BodyLabel {
   int first_node = 0, node_count = 0;
 };
 
+// What the colour bar takes of a picture: what its numbers need, or as much for any range from 0 on, so that
+// the body lies at the same pixels whatever the range is.
+enum class BarRoom { as_needed, fixed };
+
 // What stays the same through a sequence; copied by MeshPicture.
 struct MeshLayout {
   std::span<const double> rest;         // n x 2, reference positions
@@ -40,8 +44,9 @@ struct MeshLayout {
   std::string scalar_name;              // "|w_lambda|"; empty: no colour, no colour bar
   std::string scalar_unit;              // "Pa m"
   std::array<double, 2> range{0, 1};    // colour range of the whole sequence
-  std::array<double, 4> bounds{};       // x0, y0, x1, y1: what the camera must show, over the whole motion
-  double arrow_scale = 0.0;             // largest |traction| of the sequence [Pa]: gets the longest arrow
+  BarRoom bar_room = BarRoom::as_needed;
+  std::array<double, 4> bounds{};  // x0, y0, x1, y1: what the camera must show, over the whole motion
+  double arrow_scale = 0.0;        // largest |traction| of the sequence [Pa]: gets the longest arrow
 };
 
 struct TractionArrow {
@@ -53,7 +58,8 @@ struct TractionArrow {
 struct MeshFrame {
   std::span<const double> positions;  // n x 2, deformed
   std::span<const double> scalar;     // n, or empty
-  std::span<const int> held;  // degrees of freedom 2 node + axis: marked along boundary edges held at both ends
+  std::span<const int>
+      held;  // degrees of freedom 2 node + axis: marked along boundary edges held at both ends
   std::span<const TractionArrow> arrows;  // one per loaded edge
   double time = 0.0;
   std::string_view caption{};  // beside the time on a sheet, cut short where there is no room
