@@ -45,6 +45,7 @@ constexpr double share_of_repeats = 0.3;   // of the budget, kept for them
 constexpr double coarsest = 1e-2;          // tolerance
 constexpr double order_shows = 1e-4;       // errors below it follow the order
 constexpr double longest_reach = 60.0;     // seconds, for a run to the finest error wanted
+constexpr double share_of_reach = 0.5;     // of the budget's rest, likewise
 // Short runs are repeated, in turn with all others, until they have taken so long together.
 constexpr int most_repeats = 9;
 constexpr double worth_repeating = 0.5;  // seconds
@@ -141,16 +142,17 @@ class Bench {
     const Setting setting{integrator, rounded_down(shorter * finest->setting.step), 0.0};
     const std::string what = fmt::format("{} {}", name_of(integrator), knob_of(setting));
     const double seconds = finest->median() / shorter;
-    if (seconds > std::min(longest_reach, left())) {
-      result_.forecasts.push_back(
-          fmt::format("{}: an error of {} would take about {:.2g} s, by its order from the error at {}", what,
-                      short_number(finest_wanted), seconds, knob_of(finest->setting)));
-      return;
+    const std::string forecast =
+        fmt::format("{}: an error of {} would take about {:.2g} s, by its order from the error at {}", what,
+                    short_number(finest_wanted), seconds, knob_of(finest->setting));
+    if (seconds <= std::min(longest_reach, share_of_reach * left())) {
+      double cost = finest->median() / std::max(1.0, planned_steps(finest->setting));
+      share_of_rest_ = 1.0;
+      const Outcome outcome = run(setting, cost);
+      share_of_rest_ = share_of_rest;
+      if (outcome == Outcome::row && result_.rows.back().error <= finest_wanted) return;
     }
-    double cost = finest->median() / std::max(1.0, planned_steps(finest->setting));
-    share_of_rest_ = 1.0;
-    run(setting, cost);
-    share_of_rest_ = share_of_rest;
+    result_.forecasts.push_back(forecast);
   }
 
   Rows take() { return std::move(result_); }
