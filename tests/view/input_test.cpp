@@ -172,10 +172,10 @@ TEST(ViewKeys, EachDoesWhatTheHelpSays) {
 }
 
 TEST(ViewKeys, WithShiftThoseWithoutASecondMeaningDoTheSame) {
-  EXPECT_EQ(app::view::action_of(Key::equal, false, true), Action::faster);
-  EXPECT_EQ(app::view::action_of(key_of('R'), false, true), Action::restart);
-  EXPECT_EQ(app::view::action_of(key_of('C'), true, false), std::nullopt);
-  EXPECT_EQ(app::view::action_of(key_of('S'), false, false), std::nullopt);
+  EXPECT_EQ(app::view::action_of(Key::equal, With::shift), Action::faster);
+  EXPECT_EQ(app::view::action_of(key_of('R'), With::shift), Action::restart);
+  EXPECT_EQ(app::view::action_of(key_of('C'), With::control), std::nullopt);
+  EXPECT_EQ(app::view::action_of(key_of('S'), With::nothing), std::nullopt);
 }
 
 // As on a machine that draws a frame a second.

@@ -16,8 +16,10 @@ using app::view::Hold;
 using app::view::Key;
 using app::view::key_of;
 
+enum class Then { hold_on, let_go };
+
 // Takes the block's right side, drags it, and lets it go or not; then F12 and Ctrl+S, at the same tick.
-void expect_the_same_picture(Driver& user, const fs::path& folder, Hold hold, bool released) {
+void expect_the_same_picture(Driver& user, const fs::path& folder, Hold hold, Then then) {
   if (user.ui.mode() != hold) user.key(key_of('G'));
   const auto at = user.pixel(0.1, 0.03);
   user.move(at[0], at[1]);
@@ -25,7 +27,7 @@ void expect_the_same_picture(Driver& user, const fs::path& folder, Hold hold, bo
   ASSERT_TRUE(user.until([&](const Display& d) { return d.hand.hold == hold; }));
   user.move(at[0] + 60, at[1] - 15);
   ASSERT_TRUE(user.ticks(40));
-  if (released) {
+  if (then == Then::let_go) {
     user.release();
     ASSERT_TRUE(user.until([](const Display& d) { return d.hand.hold == Hold::nothing; }));
     ASSERT_TRUE(user.ticks(8));
@@ -55,14 +57,14 @@ TEST(ViewSession, UnderAPushItsPictureIsThatOfRender) {
   RHEO_DRAW_OR_SKIP(context);
   const fs::path folder = output_folder();
   Driver user(*context, block(), folder);
-  expect_the_same_picture(user, folder, Hold::push, false);
+  expect_the_same_picture(user, folder, Hold::push, Then::hold_on);
 }
 
 TEST(ViewSession, UnderAGrabItsPictureIsThatOfRender) {
   RHEO_DRAW_OR_SKIP(context);
   const fs::path folder = output_folder();
   Driver user(*context, block(), folder);
-  expect_the_same_picture(user, folder, Hold::grab, false);
+  expect_the_same_picture(user, folder, Hold::grab, Then::hold_on);
 }
 
 TEST(ViewSession, ReleasedAndUnderTheScenesOwnLoadItsPictureIsThatOfRender) {
@@ -75,7 +77,7 @@ TEST(ViewSession, ReleasedAndUnderTheScenesOwnLoadItsPictureIsThatOfRender) {
   Driver user(*context, scene, folder);
   user.ui.picture().zoom(1.3, 200, 200);
   user.frames(2);
-  expect_the_same_picture(user, folder, Hold::push, true);
+  expect_the_same_picture(user, folder, Hold::push, Then::let_go);
 }
 
 // The colour bar's numbers and the arrows come and go beside the body, which stays where it is.

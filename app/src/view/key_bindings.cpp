@@ -59,16 +59,14 @@ std::span<const KeyBinding> key_bindings() {
   return bindings;
 }
 
-std::optional<Action> action_of(Key key, bool control, bool shift) {
+std::optional<Action> action_of(Key key, With held) {
   const auto find = [&](With with) -> std::optional<Action> {
     for (const KeyBinding& binding : bindings)
       if (binding.key == key && binding.with == with) return binding.action;
     return std::nullopt;
   };
-  if (control) return find(With::control);
-  if (shift)
-    if (const auto action = find(With::shift)) return action;
-  return find(With::nothing);
+  const auto action = find(held);
+  return action || held != With::shift ? action : find(With::nothing);
 }
 
 std::span<const HelpLine> help_lines() {

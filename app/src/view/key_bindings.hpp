@@ -46,7 +46,7 @@ struct KeyBinding {
 };
 
 std::span<const KeyBinding> key_bindings();
-std::optional<Action> action_of(Key key, bool control, bool shift);
+std::optional<Action> action_of(Key key, With held);
 
 struct HelpLine {
   const char *keys, *meaning;

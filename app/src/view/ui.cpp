@@ -256,9 +256,10 @@ void Ui::save_picture(bool whole) {
 void Ui::take_keys(const Input& input) {
   std::vector<char> down(key_count, 0);
   for (const Key key : input.down) down[static_cast<std::size_t>(key)] = 1;
+  const With held = input.control ? With::control : input.shift ? With::shift : With::nothing;
   for (const Key key : input.down) {
     if (was_down_[static_cast<std::size_t>(key)] != 0 || ImGui::GetIO().WantTextInput) continue;
-    if (const auto action = action_of(key, input.control, input.shift)) act(*action);
+    if (const auto action = action_of(key, held)) act(*action);
   }
   was_down_ = std::move(down);
 }
