@@ -72,7 +72,8 @@ std::array<double, 4> Picture::extent(const Display& display) {
 
 void Picture::fit_bounds(const Display& display) {
   const std::array<double, 4> b = extent(display);
-  const double room = room_about * std::max(b[2] - b[0], b[3] - b[1]);
+  body_size_ = std::max(b[2] - b[0], b[3] - b[1]);
+  const double room = room_about * body_size_;
   bounds_ = {b[0] - room, b[1] - room, b[2] + room, b[3] + room};
 }
 
@@ -80,7 +81,7 @@ void Picture::fit_bounds(const Display& display) {
 void Picture::follow(const Display& display) {
   const std::array<double, 4> b = extent(display);
   const double room = room_about * std::max(bounds_[2] - bounds_[0], bounds_[3] - bounds_[1]);
-  const double most = 20.0 * std::max(1e-9, room);
+  const double most = 20.0 * room;
   for (std::size_t k = 0; k < 2; ++k) {
     if (b[k] < bounds_[k]) bounds_[k] = std::max(b[k] - room, bounds_[k] - most);
     if (b[k + 2] > bounds_[k + 2]) bounds_[k + 2] = std::min(b[k + 2] + room, bounds_[k + 2] + most);
@@ -169,7 +170,9 @@ void Picture::pan(double pixels_x, double pixels_y) {
 void Picture::zoom(double factor, double pixel_x, double pixel_y) {
   follows_ = false;
   const double width = (bounds_[2] - bounds_[0]) / factor;
-  if (!(width > 1e-9) || !(width < 1e9)) return;
+  constexpr double closest = 1e-6, farthest = 1e4;  // in sizes of the body
+  const double size = body_size_ > 0.0 ? body_size_ : bounds_[2] - bounds_[0];
+  if (!(width > closest * size) || !(width < farthest * size)) return;
   const auto [x, y] = plane_.plane(pixel_x, pixel_y);
   bounds_ = {x + (bounds_[0] - x) / factor, y + (bounds_[1] - y) / factor, x + (bounds_[2] - x) / factor,
              y + (bounds_[3] - y) / factor};

@@ -65,6 +65,7 @@ class Picture {
   rheo::ColorBy color_ = rheo::ColorBy::none;
 
   std::array<double, 4> bounds_{};
+  double body_size_ = 0.0;  // when it was fitted [m]
   bool fit_ = true, follows_ = true;
   std::array<double, 2> range_{0.0, 1.0};
   double largest_ = 0.0;  // of the scalar, since t = 0
