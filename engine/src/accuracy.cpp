@@ -19,11 +19,12 @@
 namespace rheo {
 namespace {
 
-// The exponential integrator's error over its tolerance, at most: 0.42 with lumped mass, on the scenes of the
-// tests and seven hundred random ones; 0.75 with consistent mass, on three hundred and fifty. Seldom below
-// 0.01, since steps' errors are estimated part by part and added up.
-double error_of_tolerance(Mass mass) {
-  return mass == Mass::lumped ? 0.5 : 1.0;
+// The exponential integrator's error over its tolerance, at most: 0.42 with lumped mass where vibrations are
+// the fastest, on the scenes of the tests and seven hundred random ones; 0.75 with consistent mass, and where
+// relaxation or a viscous part is faster, on four hundred. Seldom below 0.01, since steps' errors are
+// estimated part by part and added up.
+double error_of_tolerance(Mass mass, const Spectrum& spectrum) {
+  return mass == Mass::lumped && spectrum.largest_rate() < spectrum.omega_max ? 0.5 : 1.0;
 }
 constexpr double largest_share = 0.95;  // of the stable step: the coarsest trial run
 // An integrator with trial runs is worth them if its coarsest run costs so many times less.
@@ -32,8 +33,8 @@ constexpr double worth_trials = 8.0;
 // its trial runs all damp vibrations that their steps do not resolve, and agree on what may lack a part that
 // goes on in truth. RK4's resolve everything.
 constexpr double worth_damping = 30.0;
-// Trial runs of such scenes have no yardstick but each other: of some hundred random ones a few came out with
-// up to three times the error that their halved steps had shown.
+// Trial runs that have no yardstick but each other: of some hundred random scenes a few came out with up to
+// three times the error that their halved steps had shown.
 constexpr double caution = 3.0;
 // A run of the exponential integrator may cost so many of the coarsest trial run to be their yardstick: what
 // a run with half of its steps costs.
@@ -155,9 +156,10 @@ class Planner {
     plan.integrator = IntegratorKind::exponential;
     const double floor = floor_of(0.0);
     if (floor > accuracy_) refuse_below(floor, "any integrator", "");
-    plan.tolerance = std::clamp((accuracy_ - floor) / error_of_tolerance(scene_.material.mass),
+    plan.tolerance = std::clamp((accuracy_ - floor) / error_of_tolerance(scene_.material.mass, spectrum_),
                                 finest_tolerance, coarsest_tolerance);
-    plan.estimate = std::min(error_of_tolerance(scene_.material.mass) * plan.tolerance + floor, accuracy_);
+    plan.estimate =
+        std::min(error_of_tolerance(scene_.material.mass, spectrum_) * plan.tolerance + floor, accuracy_);
     plan.evaluations = exponential_evaluations(plan.tolerance);
     plan.why = std::move(why);
     return plan;
@@ -171,16 +173,18 @@ class Planner {
     const char* instead = columns_ ? "" : " with it, less with \"exponential\"";
     const double fewest = steps_at(stretches_, coarsest(kind));
     // Out of reach or not, the trial runs show what is not.
-    const double aim = std::max(columns_ ? accuracy_ / caution : accuracy_, 4.0 * floor_of(fewest));
-    const double tolerance = std::max(reference_share * aim, finest_tolerance);
+    const double least = 4.0 * floor_of(fewest);
+    const double tolerance = std::max(reference_share * std::max(accuracy_, least), finest_tolerance);
     const bool short_of =
         columns_ || exponential_evaluations(tolerance) > yardstick_worth * least_evaluations(kind);
+    const double doubt = short_of ? caution : 1.0;
+    const double aim = std::max(accuracy_ / doubt, least);
     const StepChoice choice =
         choose_step_for(scene, options_, coarsest(kind), aim,
                         short_of ? Yardstick::halved_steps : Yardstick::exponential, most_trial_evaluations);
     const double steps = steps_at(stretches_, choice.step, choice.refinement);
     const auto error_at = [&](double more) {
-      return choice.estimate * std::pow(more, -method->order()) + floor_of(steps * more);
+      return doubt * choice.estimate * std::pow(more, -method->order()) + floor_of(steps * more);
     };
     // Rounding on top may want some more steps, or leave none that are enough.
     double more = 1.0, best = error_at(1.0);

@@ -106,6 +106,20 @@ Scene tied_and_ramped(Mass mass) {
   return scene;
 }
 
+// Springs may be 0.
+Scene with_viscous(Scene scene, double lambda_ela, double mu_ela, Moduli viscous) {
+  scene.material.lambda_ela = lambda_ela, scene.material.mu_ela = mu_ela;
+  scene.material.viscous = viscous;
+  return scene;
+}
+
+Scene of_parts(Mass mass) {
+  Scene scene = with_viscous(off_grid_beam(mass), 7, 5, {0.05, 0.1});
+  scene.material.elastic = {3, 2};
+  scene.material.more_branches = {{2, 4, 0.1, 0.3}, {1, 0, 9, inf}};
+  return scene;
+}
+
 std::vector<AccuracyCase> cases() {
   constexpr Mass lumped = Mass::lumped, consistent = Mass::consistent;
   constexpr IntegratorKind rk4 = IntegratorKind::rk4, euler = IntegratorKind::euler;
@@ -141,6 +155,43 @@ std::vector<AccuracyCase> cases() {
       {"RelaxesInstantly", [] { return with_material(off_grid_beam(lumped), 7, 5, 0.0002, 0.001); }, 60, 1e-7,
        any},
       {"Stiff", [] { return with_material(off_grid_beam(lumped), 7e6, 5e6, 4e6, 2e7, 2e5); }, 60, 1e-6, any},
+      {"Viscous",
+       [] {
+         return with_viscous(off_grid_beam(lumped), 0, 0, {2, 3});
+       },
+       30, 1e-6, any},
+      {"ViscousCoarse",
+       [] {
+         return with_viscous(off_grid_beam(lumped), 0, 0, {2, 3});
+       },
+       30, 1e-2, any},
+      {"MoreViscous",
+       [] {
+         return with_viscous(off_grid_beam(lumped), 0, 0, {20, 30});
+       },
+       30, 1e-4, any},
+      {"ViscousAndMaxwell",
+       [] {
+         return with_viscous(off_grid_beam(lumped), 7, 5, {20, 30});
+       },
+       200, 1e-6, any},
+      {"VeryViscous",
+       [] {
+         return with_viscous(off_grid_beam(lumped), 0, 0, {200, 300});
+       },
+       30, 1e-6, any},
+      {"VeryViscousAndMaxwell",
+       [] {
+         return with_viscous(ramped(lumped), 7, 5, {200, 300});
+       },
+       30, 1e-4, any},
+      {"ViscousConsistent",
+       [] {
+         return with_viscous(off_grid_beam(consistent), 7, 5, {2, 3});
+       },
+       30, 1e-6, any},
+      {"Parts", [] { return of_parts(lumped); }, 60, 1e-6, any},
+      {"PartsConsistent", [] { return of_parts(consistent); }, 30, 1e-4, any},
       // General constraints: RK4 it is.
       {"Tied", [] { return tied(lumped); }, 60, 1e-6, any},
       {"TiedRamp", [] { return tied_and_ramped(lumped); }, 10, 1e-3, any},
