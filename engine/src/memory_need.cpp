@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
+#include "columns.hpp"
 #include "rheo/error.hpp"
 #include "rheo/memory_limit.hpp"
 #include "rheo/simulation.hpp"
-#include "schedule.hpp"
 #include "timeline.hpp"
 
 namespace rheo {

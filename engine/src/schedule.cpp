@@ -20,11 +20,6 @@ constexpr std::size_t spectra_taken = 8;   // beyond it the free body's frequenc
 
 }  // namespace
 
-bool has_columns(const Scene& scene) {
-  const bool held = !scene.fixes.empty() || !scene.moves.empty();
-  return !scene.constraints.empty() || (scene.time.constraints == ConstraintMethod::baumgarte && held);
-}
-
 Schedule::Schedule(const Scene& scene, const Model& model, double memory)
     : scene_(scene),
       model_(model),

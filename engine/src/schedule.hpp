@@ -9,13 +9,11 @@
 #include <vector>
 
 #include "body.hpp"
+#include "columns.hpp"
 #include "constraints.hpp"
 #include "rheo/stability.hpp"
 
 namespace rheo {
-
-// Whether some constraint of the scene is not eliminated but solved for (equation 4).
-bool has_columns(const Scene& scene);
 
 // The automatic step's bound where smooth motions go on: RK4 leaves the residual forces of what is moved an
 // error that hangs on the steps through such a motion alone, 1e-4 of them at 16. A given step is left as it

@@ -15,7 +15,8 @@ set(engine "${PROJECT_SOURCE_DIR}/engine")
 set(app "${PROJECT_SOURCE_DIR}/app")
 set(engine_sources
   material.cpp material_presets.cpp elastic_constants.cpp relaxation.cpp nnls.cpp prony_problem.cpp prony_selection.cpp
-  prony_fit.cpp memory_limit.cpp memory_budget.cpp memory_need.cpp motion.cpp timeline.cpp mesh.cpp shapes.cpp scene.cpp
+  prony_fit.cpp columns.cpp memory_limit.cpp memory_budget.cpp memory_need.cpp motion.cpp timeline.cpp mesh.cpp shapes.cpp
+  scene.cpp
   io/bodies_reader.cpp io/body_reader.cpp io/file_access.cpp io/material_data.cpp io/material_reader.cpp io/message.cpp
   io/read_file.cpp io/region_reader.cpp io/table_file.cpp io/table_reader.cpp io/table_set.cpp io/toml_tree.cpp
   io/mesh_file.cpp io/msh_content.cpp io/msh_input.cpp io/scene_file.cpp io/scene_text.cpp io/scene_items.cpp)
