@@ -37,8 +37,13 @@ class Explorer {
       const std::string next = choose(pass);
       if (next.empty()) return;
       const std::set<std::string> before = unreached_here();
+      const std::size_t shown = user_.ui.widgets().size();
       click(next);
       ++tried_[next];
+      // A branch comes and goes with the physics' next whole state, which a slow machine takes some frames
+      // for.
+      if (next.ends_with("Add a branch") || next.ends_with("Remove the last"))
+        for (int k = 0; k < 1000 && user_.ui.widgets().size() == shown; ++k) frame();
       // What closed and hides something new is opened again.
       bool hides = false;
       const std::set<std::string> after = unreached_here();
