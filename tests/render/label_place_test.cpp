@@ -81,7 +81,7 @@ INSTANTIATE_TEST_SUITE_P(Sizes, TractionValue,
                                            std::pair{240, 2000}));
 
 TEST_P(TractionValue, StandsClearOfTheArrowsOfATiltedEdge) {
-  const auto [width, height] = GetParam();
+  const int width = GetParam().first, height = GetParam().second;
   RHEO_OPEN_OR_SKIP(context, render::Backend::automatic, width, height);
   for (const double tilt : {-0.5, -0.3, 0.0, 0.3, 0.5}) {
     Body body = bodies::rectangle(1, 2, 5, 9);

@@ -5,9 +5,11 @@
 #if defined(__x86_64__) && defined(__GNUC__)
 #define RHEO_X86 1
 #include <immintrin.h>
+#ifndef __clang__
 // GCC 12 takes the undefined inputs of its own AVX-512 intrinsics for a mistake of ours (its bug 105593).
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #pragma GCC diagnostic ignored "-Wuninitialized"
+#endif
 #endif
 
 namespace rheo {
