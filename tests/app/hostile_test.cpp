@@ -19,7 +19,7 @@ class Hostile : public ProgramTest {
  protected:
   // Runs in the test's folder, with `ulimit -v` where no sanitizer reserves more than any limit.
   Finished confined(const std::string& arguments) const {
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(RHEO_SANITIZE_ADDRESS)
     const std::string limit;
 #else
     const std::string limit = "ulimit -v 4000000 && ";

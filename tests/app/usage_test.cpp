@@ -199,7 +199,7 @@ TEST_F(Usage, VersionIsTheProjects) {
 }
 
 // The address sanitizer reserves more than any limit.
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(RHEO_SANITIZE_ADDRESS)
 TEST_F(Usage, AMeshBeyondTheMemoryIsRefusedBeforeItIsBuilt) {
   // 640,000 nodes: about 0.6 GB, beyond 0.5 GB; implicit: two factors of 1 GB each and the matrices.
   write("big.toml", small_beam_with("nodes = [5, 2]", "nodes = [1600, 400]"));

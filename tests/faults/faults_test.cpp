@@ -26,7 +26,7 @@ using testing::IsEmpty;
 using testing::StartsWith;
 using Strings = std::vector<std::string>;
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef RHEO_SANITIZE_ADDRESS
 constexpr double run_length = 0.3, held_length = 0.6;
 #else
 constexpr double run_length = 1.0, held_length = 10.0;  // held at some tenth of it on a quick machine
@@ -311,7 +311,7 @@ TEST_F(Faults, StandardOutputThatCannotBeWrittenIsOneLine) {
 }
 
 // The address sanitizer reserves more than any limit.
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(RHEO_SANITIZE_ADDRESS)
 TEST_F(Faults, MemoryThatRunsOutIsOneLine) {
   const std::string scene = [&] {
     std::string text = case_.scene;

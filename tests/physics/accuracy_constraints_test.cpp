@@ -18,7 +18,7 @@
 namespace rheo::test {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(RHEO_SANITIZE_ADDRESS) || defined(RHEO_SANITIZE_THREAD)
 constexpr int stride = 5;
 #else
 constexpr int stride = 1;

@@ -9,7 +9,7 @@
 #include "rheo/live.hpp"
 #include "support/live_cases.hpp"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
+#if defined(RHEO_SANITIZE_ADDRESS) || defined(RHEO_SANITIZE_THREAD) || !defined(__GLIBC__)
 #define RHEO_CANNOT_COUNT_LOCKS 1
 #else
 #include <dlfcn.h>

@@ -8,8 +8,8 @@
 #include "rheo/live.hpp"
 #include "support/live_cases.hpp"
 
-#if defined(__linux__) && defined(__x86_64__) && !defined(__SANITIZE_THREAD__) && \
-    !defined(__SANITIZE_ADDRESS__)
+#if defined(__linux__) && defined(__x86_64__) && !defined(RHEO_SANITIZE_THREAD) && \
+    !defined(RHEO_SANITIZE_ADDRESS)
 #define RHEO_CAN_TRAP 1
 #include <linux/audit.h>
 #include <linux/filter.h>

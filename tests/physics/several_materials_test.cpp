@@ -77,7 +77,7 @@ std::vector<ExactState> run(const Scene& scene, Kernel kernel) {
   return states;
 }
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef RHEO_SANITIZE_ADDRESS
 constexpr int exact_scenes = 1;  // dense exponentials take twenty times as long
 #else
 constexpr int exact_scenes = 2;
@@ -129,7 +129,7 @@ TEST(SeveralMaterials, EveryKernelAndIntegratorFollowsTheExactSolution) {
   }
 }
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef RHEO_SANITIZE_ADDRESS
 constexpr int constraint_scenes = 1;  // dense exponentials take twenty times as long
 #else
 constexpr int constraint_scenes = 2;

@@ -39,7 +39,7 @@ Scene random_scene(std::mt19937& random, Mass mass) {
   return scene;
 }
 
-#ifdef __SANITIZE_ADDRESS__
+#ifdef RHEO_SANITIZE_ADDRESS
 constexpr int exact_scenes = 1, constraint_scenes = 1;  // dense exponentials take twenty times as long
 #else
 constexpr int exact_scenes = 4, constraint_scenes = 2;

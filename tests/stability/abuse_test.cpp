@@ -83,7 +83,7 @@ class Abuse : public testing::TestWithParam<Abused> {};
 
 TEST_P(Abuse, LeavesEveryStateFiniteAndEveryEnergyAccounted) {
   const Abused& each = GetParam();
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(RHEO_SANITIZE_ADDRESS) || defined(RHEO_SANITIZE_THREAD)
   const int ticks = 120;
 #else
   const int ticks = 600;

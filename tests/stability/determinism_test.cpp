@@ -28,7 +28,7 @@ namespace {
 
 using Hashes = std::vector<std::uint64_t>;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(RHEO_SANITIZE_ADDRESS) || defined(RHEO_SANITIZE_THREAD)
 constexpr int across = 6, up = 4;
 #else
 constexpr int across = 11, up = 7;

@@ -10,7 +10,7 @@
 namespace rheo::test {
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(RHEO_SANITIZE_ADDRESS) || defined(RHEO_SANITIZE_THREAD)
 constexpr int fewer = 3;
 #else
 constexpr int fewer = 1;

@@ -16,7 +16,7 @@ namespace rheo::test {
 namespace {
 
 // Long double eigenvalues under sanitizers are slow, and nobody's memory is at stake in them.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(RHEO_SANITIZE_ADDRESS) || defined(RHEO_SANITIZE_THREAD)
 constexpr int scenes = 24, several_materials = 8;
 #else
 constexpr int scenes = 120, several_materials = 40;

@@ -5,7 +5,7 @@
 #include <atomic>
 #include <cstdlib>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
+#if defined(RHEO_SANITIZE_ADDRESS) || defined(RHEO_SANITIZE_THREAD) || !defined(__GLIBC__)
 #define RHEO_CANNOT_COUNT 1
 #endif
 

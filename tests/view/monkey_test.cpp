@@ -13,7 +13,7 @@
 #include "ui_driver.hpp"
 #include "view_scene.hpp"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(RHEO_SANITIZE_ADDRESS) || defined(RHEO_SANITIZE_THREAD)
 // Of the sanitizers' runtimes; GCC 12 has no header for it.
 extern "C" std::size_t __sanitizer_get_current_allocated_bytes();
 #endif
@@ -29,7 +29,7 @@ double number_from(const char* name, double otherwise) {
 // What the program has taken from the heap and not given back. [MB] Resident memory would not do: an
 // allocator keeps what is freed.
 double heap_in_use() {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if defined(RHEO_SANITIZE_ADDRESS) || defined(RHEO_SANITIZE_THREAD)
   return static_cast<double>(__sanitizer_get_current_allocated_bytes()) / 1e6;
 #else
   const struct mallinfo2 info = mallinfo2();
