@@ -24,6 +24,7 @@
 #include "run_report.hpp"
 #include "run_summary.hpp"
 #include "sequence.hpp"
+#include "sheet_frames.hpp"
 #include "stop_signals.hpp"
 
 namespace app {
@@ -221,6 +222,10 @@ bool Run::draw() {
     report_.notes.push_back(fmt::format("{} is zero everywhere and always: there is nothing to colour",
                                         name_of(scene.picture.color)));
     progress_.line("note: " + report_.notes.back());
+  }
+  for (const std::string& note : notes_on_sheet_times(scene)) {
+    report_.notes.push_back(note);
+    progress_.line("note: " + note);
   }
   // Frames that are there are whole and as they would be drawn again.
   const auto is_there = [&](std::int64_t k) { return cut_ && folder_.has_own(frame_name(k)); };

@@ -1,8 +1,12 @@
 #include "sheet_frames.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+
+#include "rheo/simulation.hpp"
 
 namespace app {
 namespace {
@@ -97,6 +101,22 @@ std::vector<std::int64_t> frames_at(const std::vector<double>& times, std::int64
   }
   if (frames.empty()) frames.push_back(outputs - 1);
   return frames;
+}
+
+std::vector<std::string> notes_on_sheet_times(const rheo::Scene& scene) {
+  const rheo::TimeSettings& time = scene.time;
+  const std::int64_t outputs = rheo::output_count(time);
+  std::vector<std::string> notes;
+  for (const double t : scene.picture.sheet) {
+    const std::int64_t k = std::llround(t * time.frame_rate);
+    const double shown = rheo::output_time(time, std::min(k, outputs - 1));
+    if (k >= outputs)
+      notes.push_back(fmt::format("the sheet leaves out t = {:g} s: outputs end at {:g} s", t, shown));
+    else if (std::abs(shown - t) > 1e-9 * time.duration)
+      notes.push_back(
+          fmt::format("the sheet shows t = {:g} s for {:g} s, which is between outputs", shown, t));
+  }
+  return notes;
 }
 
 }  // namespace app

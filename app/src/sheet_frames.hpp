@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "rheo/scene.hpp"
@@ -22,5 +23,8 @@ std::vector<std::int64_t> sheet_frames(std::int64_t outputs, double frame_rate,
 // Those nearest to these times, each once; times beyond the last output are left out.
 std::vector<std::int64_t> frames_at(const std::vector<double>& times, std::int64_t outputs,
                                     double frame_rate);
+
+// What becomes of the scene's own sheet times that no output has.
+std::vector<std::string> notes_on_sheet_times(const rheo::Scene& scene);
 
 }  // namespace app

@@ -1,13 +1,20 @@
 #include "stop_signals.hpp"
 
+#include <unistd.h>
+
 namespace app {
 namespace {
 
 // A handler can reach nothing else.
 volatile std::sig_atomic_t noted = 0;
+volatile std::sig_atomic_t says_so = 0;  // to somebody at a terminal
 
 void note(int signal) {
   noted = signal;
+  if (says_so == 0) return;
+  static constexpr char text[] = "\nstops after the output in hand; the same once more ends it at once\n";
+  // (Where it cannot be written, nobody waits for it.)
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
 }
 
 // What ignores a signal (nohup, a shell's background job) goes on doing so.
@@ -24,6 +31,7 @@ void install(int signal, struct sigaction& before) {
 
 StopSignals::StopSignals() {
   noted = 0;
+  says_so = isatty(STDERR_FILENO) != 0 ? 1 : 0;
   install(SIGINT, interrupt_before_);
   install(SIGTERM, terminate_before_);
 }

@@ -113,8 +113,10 @@ SheetLayout layout_sheet(const Canvas& canvas, const Rect& area, const std::arra
   const Sheet sheet(canvas, area, bounds, arrows, label_room);
   std::vector<std::string> whole, captioned, brief = short_times(times), brief_captioned = brief;
   bool has_captions = false;
+  double longest = 0;
+  for (const double t : times) longest = std::max(longest, std::isfinite(t) ? std::abs(t) : 0.0);
   for (std::size_t i = 0; i < times.size(); ++i) {
-    whole.push_back(time_text(times[i]));
+    whole.push_back(time_text(times[i], longest));
     captioned.push_back(whole.back());
     if (captions[i].empty()) continue;
     has_captions = true;

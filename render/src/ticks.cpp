@@ -107,25 +107,38 @@ std::string with_unit(double value, const std::string& unit) {
   return fmt::format("{:.3g} {}{}", value / std::pow(1000.0, k - 3), prefixes[k], unit);
 }
 
+namespace {
+
+struct TimeUnit {
+  const char* name;
+  double factor;
+};
+
+TimeUnit time_unit(double longest) {
+  if (longest == 0 || longest >= 0.0095) return {"s", 1};
+  if (longest >= 0.95e-5) return {"ms", 1e3};
+  return {"µs", 1e6};
+}
+
+}  // namespace
+
 std::string time_text(double seconds) {
-  const double size = std::abs(seconds);
+  return time_text(seconds, std::abs(seconds));
+}
+
+std::string time_text(double seconds, double longest) {
   if (!std::isfinite(seconds)) return "t = ?";
-  if (size == 0 || size >= 0.0095) return fmt::format("t = {:.{}f} s", seconds, size >= 1000 ? 1 : 3);
-  if (size >= 0.95e-5) return fmt::format("t = {:.3f} ms", seconds * 1e3);
-  return fmt::format("t = {:.3g} µs", seconds * 1e6);
+  const TimeUnit unit = time_unit(longest);
+  const double value = seconds * unit.factor;
+  if (unit.factor == 1e6) return fmt::format("t = {:.3g} {}", value, unit.name);
+  return fmt::format("t = {:.{}f} {}", value, longest >= 1000 ? 1 : 3, unit.name);
 }
 
 std::vector<std::string> short_times(std::span<const double> seconds) {
   double longest = 0;
   for (const double t : seconds)
     if (std::isfinite(t)) longest = std::max(longest, std::abs(t));
-  struct Unit {
-    const char* name;
-    double factor;
-  };
-  const Unit unit = longest == 0 || longest >= 0.0095 ? Unit{"s", 1}
-                    : longest >= 0.95e-5              ? Unit{"ms", 1e3}
-                                                      : Unit{"µs", 1e6};
+  const TimeUnit unit = time_unit(longest);
   const double digits = std::max(std::log10(longest * unit.factor), 0.0);
   const int most = std::max(3 - std::max(static_cast<int>(digits) - 1, 0), 0);
   int decimals = 0;

@@ -29,6 +29,8 @@ std::string with_unit(double value, const std::string& unit);
 
 // "t = 0.517 s".
 std::string time_text(double seconds);
+// In the unit of the longest of the times that it is read beside.
+std::string time_text(double seconds, double longest);
 
 // "0.25 s": all in one unit, with as many decimals as tell each from its rounded value: up to three, from
 // 100 on two, from 1000 on one.

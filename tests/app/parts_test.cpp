@@ -42,6 +42,19 @@ TEST(SheetFrames, AreAllOutputsOfAShortRunAndAsManyAsWanted) {
   EXPECT_THAT(app::sheet_frames(301, 60.0, {}, 4, 99), ElementsAre(0, 100, 200, 300));
 }
 
+TEST(SheetFrames, OfTimesThatNoOutputHasAreTold) {
+  rheo::Scene scene;
+  scene.time.duration = 1.25;
+  scene.time.frame_rate = 10;
+  scene.picture.sheet = {0.0, 0.26, 0.5, 1.2};
+  EXPECT_THAT(app::notes_on_sheet_times(scene),
+              ElementsAre("the sheet shows t = 0.3 s for 0.26 s, which is between outputs"));
+  scene.time.duration = 1.15;
+  EXPECT_THAT(app::notes_on_sheet_times(scene),
+              ElementsAre("the sheet shows t = 0.3 s for 0.26 s, which is between outputs",
+                          "the sheet leaves out t = 1.2 s: outputs end at 1.1 s"));
+}
+
 TEST(SheetFrames, AreFewerInSmallPicturesUnlessANumberIsWanted) {
   const auto few = app::sheet_frames(301, 60.0, {1.0}, std::nullopt, 6);
   EXPECT_THAT(few, ElementsAre(0, 60, 120, 180, 240, 300));

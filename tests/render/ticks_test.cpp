@@ -78,6 +78,9 @@ TEST(Numbers, CarryPrefixesAndTimeItsUnit) {
   EXPECT_EQ(render::time_text(0), "t = 0.000 s");
   EXPECT_EQ(render::time_text(0.51666), "t = 0.517 s");
   EXPECT_EQ(render::time_text(0.0002), "t = 0.200 ms");
+  EXPECT_EQ(render::time_text(0.0002, 0.009), "t = 0.200 ms");
+  EXPECT_EQ(render::time_text(0, 0.009), "t = 0.000 ms");
+  EXPECT_EQ(render::time_text(0.002, 3), "t = 0.002 s");
 }
 
 TEST(Typeset, NamesOfQuantities) {

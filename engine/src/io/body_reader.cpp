@@ -140,7 +140,7 @@ class BodyReader {
          mesh.integer_rows("triangles", triangles, 3, 0, scene_.mesh.node_count() - 1, "[i, j, k]")) {
       scene_.mesh.triangles.push_back({row[0], row[1], row[2]});
     }
-    note_turned(prepare(scene_.mesh, mesh.where()));
+    mesh.attribute("triangles", triangles, [&] { note_turned(prepare(scene_.mesh)); });
   }
 
   void note_left_out(const LeftOutNodes& nodes) {

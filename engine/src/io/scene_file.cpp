@@ -134,7 +134,8 @@ class SceneReader {
                         min_picture_size[1], max_picture_side, max_picture_side));
       }
       const double width = size->items[0].number, height = size->items[1].number;
-      if (std::max(width, height) > max_picture_side && std::min(width, height) > 0.0) {
+      if (std::max(width, height) > max_picture_side && std::min(width, height) > 0.0 &&
+          std::isfinite(width * height)) {
         render.refuse(
             "size", *size,
             fmt::format("about {} of memory; a width of {} to {} and a height of {} to {} pixels are "
