@@ -300,6 +300,11 @@ PlaneInPicture MeshPicture::plane() const {
   return {c.pixel_x - c.scale * c.x0, c.pixel_y + c.scale * c.y0, c.scale};
 }
 
+PictureArea MeshPicture::body_area() const {
+  const Rect body = impl_->parts().body;
+  return {body.x0, body.y0, body.x1, body.y1};
+}
+
 unsigned MeshPicture::framebuffer() const {
   return impl_->target.framebuffer();
 }

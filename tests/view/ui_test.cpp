@@ -1,6 +1,7 @@
 // The window as a person uses it: all of its content off-screen, with a synthetic cursor and keys.
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <cmath>
 #include <fstream>
 #include <set>
@@ -66,8 +67,8 @@ TEST(ViewUi, AnEdgePushedAndReleasedComesBackPartOfTheWayAndTheWindowTells) {
   EXPECT_GT(corner_x(user), 0.05 * far);
   EXPECT_FALSE(user.says("push "));
   EXPECT_LT(user.ui.history().w_lambda.back(), 0.2 * strong);
-  for (const char* text : {"|w| [Pa m]", "E [J]", "u [m]", "F [N]", "steps a frame", "stable step", "kernel",
-                           "energy drift", "paused"})
+  for (const char* text :
+       {"|w| [", "E [", "u [mm]", "F [", "steps a frame", "stable step", "kernel", "energy drift", "paused"})
     EXPECT_TRUE(user.says(text)) << text;
 }
 
@@ -234,7 +235,25 @@ TEST(ViewUi, ARecordingHasOneFrameForEachSixtiethAndLosesNone) {
   const fs::path folder = output_folder();
   Driver user(*context, block(), folder);
   user.key(Key::f9);
+  user.frames(5);
+  EXPECT_TRUE(user.says("recording, frame 1: waits")) << "as the body, which is paused";
+  EXPECT_EQ(user.ui.shown().ticks, 0);
+  user.key(Key::space);
+  ASSERT_TRUE(user.until([](const Display& d) { return d.ticks >= 100; }));
+  user.key(Key::period);
+  EXPECT_TRUE(user.says("takes its own steps"));
+  user.key(Key::space);
+  ASSERT_TRUE(user.until([&](const Display&) { return user.says("waits") && !user.ui.is_lively(); }));
+  const std::int64_t waited = user.ui.shown().ticks;
+  user.frames(20);
+  EXPECT_EQ(user.ui.shown().ticks, waited);
+  EXPECT_NE(user.widget("Run"), nullptr);
+  user.key(Key::period);  // it waits, and one tick can be taken: the next frame's time is the same
+  ASSERT_TRUE(user.until([&](const Display& d) { return d.ticks == waited + 1; }));
+  user.key(Key::space);
+  EXPECT_NE(user.widget("Pause"), nullptr);
   ASSERT_TRUE(user.until([](const Display& d) { return d.ticks >= 200; }));
+  EXPECT_EQ(user.ui.shown().ticks, 200) << "12 / 60 s";
   user.key(Key::f9);
   user.key(Key::f12);
   int count = 0;
@@ -265,6 +284,89 @@ TEST(ViewUi, ZoomKeepsWhatIsUnderTheCursorAndFitBringsAllBack) {
   const auto area = user.ui.picture_area();
   EXPECT_GT(user.pixel(0.0, 0.0)[0], static_cast<float>(area[0]));
   EXPECT_LT(user.pixel(0.1, 0.0)[0], static_cast<float>(area[0] + area[2]));
+}
+
+bool apart(const app::view::Area& a, const app::view::Area& b) {
+  return a.high.x <= b.low.x || b.high.x <= a.low.x || a.high.y <= b.low.y || b.high.y <= a.low.y;
+}
+
+// A strained body under the hand, a saved picture told: four plates at once.
+TEST(ViewUi, NothingThatIsWrittenOverThePictureLiesOnOtherWords) {
+  RHEO_DRAW_OR_SKIP(context);
+  const fs::path folder = output_folder();
+  Driver user(*context, block(), folder);
+  for (const auto& [width, height] : {std::pair{300, 200}, {1280, 720}, {760, 400}}) {
+    user.input.width = width;
+    user.input.height = height;
+    user.key(key_of('F'));
+    const auto at = user.pixel(0.1, 0.04);
+    user.move(at[0], at[1]);
+    user.press();
+    ASSERT_TRUE(user.until([](const Display& d) { return d.hand.hold == Hold::push; }));
+    for (int mm = 1; mm < 100 && !user.says("strain "); ++mm) {
+      user.move(user.pixel(0.1 + 1e-3 * mm, 0.04)[0], at[1]);
+      ASSERT_TRUE(user.ticks(50));
+    }
+    user.key(Key::f12);
+    const std::string size = std::to_string(width) + " x " + std::to_string(height);
+    for (const char* words : {"paused", "strain ", "saved "}) EXPECT_TRUE(user.says(words)) << size << words;
+    const std::vector<app::view::Area>& plates = user.ui.plates();
+    EXPECT_GE(plates.size(), 3u) << size;
+    const render::PictureArea body = user.ui.picture().mesh_picture().body_area();
+    const auto x = static_cast<float>(user.ui.picture_area()[0]);
+    for (std::size_t i = 0; i < plates.size(); ++i) {
+      EXPECT_GE(plates[i].low.x, x);
+      EXPECT_LE(plates[i].high.x, x + body.x1) << size << ": over the colour bar";
+      EXPECT_GE(plates[i].low.y, body.y0) << size << ": over the title";
+      EXPECT_LE(plates[i].high.y, static_cast<float>(user.ui.picture_area()[3])) << size;
+      for (std::size_t j = 0; j < i; ++j) EXPECT_TRUE(apart(plates[i], plates[j])) << size << i << j;
+    }
+    user.release();
+    ASSERT_TRUE(user.until([](const Display& d) { return d.hand.hold == Hold::nothing; }));
+    ASSERT_TRUE(user.ticks(1500));
+  }
+}
+
+TEST(ViewUi, APushThatThePhysicsHasNotTakenIsNotShown) {
+  RHEO_DRAW_OR_SKIP(context);
+  Driver user(*context, block(), output_folder());
+  const auto at = user.pixel(0.1, 0.03);
+  std::atomic<bool> free{false};
+  user.physics.post([&free](app::view::Core&) {
+    while (!free) std::this_thread::yield();
+  });
+  user.move(at[0], at[1]);
+  user.press();
+  user.move(at[0] + 80, at[1]);
+  EXPECT_EQ(user.ui.shown().hand.hold, Hold::nothing) << "the physics is at something else";
+  EXPECT_FALSE(user.says("push "));
+  free = true;
+  ASSERT_TRUE(user.until([](const Display& d) { return d.hand.hold == Hold::push; }));
+  user.frame();
+  EXPECT_TRUE(user.says("push 0 Pa (0 N), paused"));
+  ASSERT_TRUE(user.ticks(200));
+  EXPECT_FALSE(user.says("push 0 Pa"));
+}
+
+TEST(ViewUi, TheSessionsStateIsToldFromTheFirstChangeOn) {
+  RHEO_DRAW_OR_SKIP(context);
+  Driver user(*context, block(), output_folder());
+  EXPECT_TRUE(user.says("session: nothing has happened yet"));
+  ASSERT_TRUE(user.ticks(5));
+  user.frame();
+  EXPECT_TRUE(user.says("session: whole"));
+  rheo::Scene edited = *user.ui.shown().scene;
+  edited.material.mu_ela *= 2.0;
+  user.physics.edit(edited);
+  ASSERT_TRUE(
+      user.until([&](const Display& d) { return d.scene->material.mu_ela == edited.material.mu_ela; }));
+  user.frame();
+  EXPECT_TRUE(user.says("no session: changed at t > 0"));
+  user.key(key_of('R'));
+  ASSERT_TRUE(user.until([](const Display& d) { return d.ticks == 0; }));
+  ASSERT_TRUE(user.ticks(5));
+  user.frame();
+  EXPECT_TRUE(user.says("session: whole"));
 }
 
 }  // namespace

@@ -118,6 +118,7 @@ rheo::Scene scene_with_everything() {
   scene.material.more_branches.push_back({100, 50, 20, 10});
   scene.material.elastic = {200, 100};
   scene.material.viscous = {1, 1};
+  scene.material_name = "flesh";
   rheo::Region& lump = scene.regions.emplace_back();
   lump.name = "lump";
   lump.material = block().material;
@@ -144,7 +145,7 @@ TEST(ViewWidgets, EveryOneIsReachedAndHarmless) {
   user.input.width = 760;
   user.input.height = 2300;
   user.frames(2);
-  explorer.press("Add a branch", "branch 3");
+  explorer.press("material 1, flesh/Add a branch", "material 1, flesh/branch 3");
   explorer.press("broken.toml", "Close");
   explorer.press_all([](const std::string&) { return true; });
   // The list of scenes came last of all sections, so that the first body's own widgets were all there.
@@ -178,23 +179,24 @@ TEST(ViewWidgets, EveryOneIsReachedAndHarmless) {
                            "nodes",
                            "dark",
                            "Material",
-                           "lambda_ela",
-                           "mu_ela",
-                           "lambda_vis",
-                           "mu_vis",
-                           "lambda relaxes",
-                           "mu relaxes",
-                           "density",
-                           "elastic lambda",
-                           "elastic mu",
-                           "viscous lambda",
-                           "viscous mu",
-                           "branch 2",
-                           "branch 2/mu_vis",
-                           "branch 2/mu relaxes",
-                           "branch 3",
-                           "Add a branch",
-                           "Remove the last",
+                           "material 1, flesh",
+                           "material 1, flesh/lambda_ela",
+                           "material 1, flesh/mu_ela",
+                           "material 1, flesh/lambda_vis",
+                           "material 1, flesh/mu_vis",
+                           "material 1, flesh/lambda relaxes",
+                           "material 1, flesh/mu relaxes",
+                           "material 1, flesh/density",
+                           "material 1, flesh/elastic lambda",
+                           "material 1, flesh/elastic mu",
+                           "material 1, flesh/viscous lambda",
+                           "material 1, flesh/viscous mu",
+                           "material 1, flesh/branch 2",
+                           "material 1, flesh/branch 2/mu_vis",
+                           "material 1, flesh/branch 2/mu relaxes",
+                           "material 1, flesh/branch 3",
+                           "material 1, flesh/Add a branch",
+                           "material 1, flesh/Remove the last",
                            "material 2, lump",
                            "material 2, lump/density",
                            "material 2, lump/Add a branch",

@@ -384,24 +384,32 @@ void Core::show(Display& display) {
   display.largest_step = simulation.largest_step();
   display.kernel = simulation.kernel();
   display.threads = simulation.threads();
+  display.session = session_state();
   display.message = message_;
   display.message_number = message_number_;
 }
 
+SessionState Core::session_state() const {
+  if (!whole_) return SessionState::parameters_changed;
+  if (live_->ticks() == 0) return SessionState::nothing_yet;
+  return live_->session_is_complete() ? SessionState::whole : SessionState::too_long;
+}
+
 std::optional<rheo::Scene> Core::session() {
-  if (!whole_) {
-    say("a session begins at t = 0: parameters were changed on the way; reset, do it again and save");
-    return std::nullopt;
+  switch (session_state()) {
+    case SessionState::whole:
+      return live_->session();
+    case SessionState::parameters_changed:
+      say("a session begins at t = 0: parameters were changed on the way; reset, do it again and save");
+      break;
+    case SessionState::nothing_yet:
+      say("nothing has happened yet: there is no session to save");
+      break;
+    case SessionState::too_long:
+      say("the session is longer than what is remembered: reset, and save sooner");
+      break;
   }
-  if (live_->ticks() == 0) {
-    say("nothing has happened yet: there is no session to save");
-    return std::nullopt;
-  }
-  if (!live_->session_is_complete()) {
-    say("the session is longer than what is remembered: reset, and save sooner");
-    return std::nullopt;
-  }
-  return live_->session();
+  return std::nullopt;
 }
 
 }  // namespace app::view

@@ -63,6 +63,7 @@ class Core {
 
   // What was done since the last reset, as a scene; nullopt with a message where it cannot be said by one.
   std::optional<rheo::Scene> session();
+  SessionState session_state() const;
 
   const rheo::Live& live() const { return *live_; }
 

@@ -18,6 +18,9 @@ namespace app::view {
 
 enum class Hold { nothing, push, grab };
 
+// Whether what was done since t = 0 can be saved as a scene.
+enum class SessionState { nothing_yet, whole, parameters_changed, too_long };
+
 struct HandDisplay {
   Hold hold = Hold::nothing;
   std::vector<rheo::Edge> edges;
@@ -54,7 +57,8 @@ struct Display {
   bool resting = false;           // nothing moves and nothing acts: no steps
   double speed_wanted = 1.0;      // simulated seconds a second
   double real_time_factor = 1.0;  // what of it is reached, over the last second
-  std::string message;            // the last one, empty: none
+  SessionState session = SessionState::nothing_yet;
+  std::string message;  // the last one, empty: none
   std::int64_t message_number = 0;
 };
 

@@ -2,18 +2,55 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 namespace app::view {
+namespace {
 
-std::vector<rheo::Edge> edges_at(const Display& display, const render::PlaneInPicture& plane,
-                                 std::array<double, 2> cursor, double radius, std::size_t most) {
-  struct Found {
-    double distance;
-    rheo::Edge edge;
+// Of the triangle that has the edge.
+const rheo::Material& material_at(const rheo::Scene& scene, const rheo::Edge& edge) {
+  if (scene.region_of_triangle.empty()) return scene.material;
+  const auto& triangles = scene.mesh.triangles;
+  const auto found = std::ranges::find_if(triangles, [&](const auto& triangle) {
+    return std::ranges::count(triangle, edge[0]) > 0 && std::ranges::count(triangle, edge[1]) > 0;
+  });
+  if (found == triangles.end()) return scene.material;
+  const auto number = scene.region_of_triangle[static_cast<std::size_t>(found - triangles.begin())];
+  return rheo::material_of(scene, static_cast<std::size_t>(number));
+}
+
+}  // namespace
+
+std::vector<int> pieces_of(const rheo::Mesh& mesh) {
+  std::vector<int> piece(mesh.points.size());
+  std::iota(piece.begin(), piece.end(), 0);
+  // A forest: each node names another of its piece, a root itself.
+  const auto root = [&](int node) {
+    const auto at = [&](int i) -> int& { return piece[static_cast<std::size_t>(i)]; };
+    while (at(node) != node) node = at(node) = at(at(node));
+    return node;
   };
-  std::vector<Found> within;
-  std::optional<Found> nearest;
+  for (const auto& triangle : mesh.triangles)
+    for (const int node : triangle) piece[static_cast<std::size_t>(root(node))] = root(triangle[0]);
+  for (std::size_t i = 0; i < piece.size(); ++i) piece[i] = root(static_cast<int>(i));
+  return piece;
+}
+
+rheo::Vec2 place_of(const Grip& grip, std::span<const double> positions) {
+  const auto i = 2 * static_cast<std::size_t>(grip.edge[0]), j = 2 * static_cast<std::size_t>(grip.edge[1]);
+  if (std::max(i, j) + 1 >= positions.size()) return {};
+  return {positions[i] + grip.along * (positions[j] - positions[i]),
+          positions[i + 1] + grip.along * (positions[j + 1] - positions[i + 1])};
+}
+
+Reach reach_at(const Display& display, const std::vector<int>& pieces, const render::PlaneInPicture& plane,
+               std::array<double, 2> cursor, double radius, std::size_t most) {
+  struct Found {
+    double middle, distance;  // of it from the cursor
+    Grip grip;
+  };
+  std::vector<Found> found;
   for (const rheo::Edge& edge : display.scene->mesh.edge_groups.at("boundary")) {
     const auto at = [&](int node) {
       const auto i = 2 * static_cast<std::size_t>(node);
@@ -24,40 +61,30 @@ std::vector<rheo::Edge> edges_at(const Display& display, const render::PlaneInPi
     const double dx = bx - ax, dy = by - ay, px = cursor[0] - ax, py = cursor[1] - ay;
     const double s = std::clamp((px * dx + py * dy) / std::max(dx * dx + dy * dy, 1e-12), 0.0, 1.0);
     const double distance = std::hypot(px - s * dx, py - s * dy);
-    const double middle = std::hypot(px - dx / 2, py - dy / 2);
-    if (middle <= radius) within.push_back({middle, edge});
-    if (distance <= radius && (!nearest || distance < nearest->distance)) nearest = Found{distance, edge};
+    if (distance <= radius) found.push_back({std::hypot(px - dx / 2, py - dy / 2), distance, {edge, s}});
   }
-  std::vector<rheo::Edge> edges;
-  if (within.empty()) {
-    if (nearest) edges.push_back(nearest->edge);
-    return edges;
-  }
-  std::sort(within.begin(), within.end(),
-            [](const Found& a, const Found& b) { return a.distance < b.distance; });
-  for (std::size_t i = 0; i < std::min(most, within.size()); ++i) edges.push_back(within[i].edge);
-  return edges;
+  if (found.empty()) return {};
+  const auto piece_of = [&](const Found& f) { return pieces[static_cast<std::size_t>(f.grip.edge[0])]; };
+  const Found nearest = *std::ranges::min_element(found, {}, &Found::distance);
+  std::erase_if(found, [&](const Found& f) { return f.middle > radius || piece_of(f) != piece_of(nearest); });
+  if (found.empty()) found.push_back(nearest);
+  std::ranges::sort(found, {}, &Found::middle);
+  found.resize(std::min(most, found.size()), nearest);
+  Reach reach;
+  for (const Found& f : found) reach.edges.push_back(f.grip.edge);
+  reach.nearest = std::ranges::min_element(found, {}, &Found::distance)->grip;
+  return reach;
 }
 
-rheo::Vec2 middle_of(const std::vector<rheo::Edge>& edges, std::span<const double> positions) {
-  rheo::Vec2 sum;
-  for (const rheo::Edge& edge : edges) {
-    for (const int node : edge) {
-      sum.x += positions[2 * static_cast<std::size_t>(node)];
-      sum.y += positions[2 * static_cast<std::size_t>(node) + 1];
-    }
-  }
-  const double count = std::max<double>(1.0, 2.0 * static_cast<double>(edges.size()));
-  return {sum.x / count, sum.y / count};
-}
-
-double default_push(const rheo::Scene& scene) {
+double default_push(const rheo::Scene& scene, const std::vector<int>& pieces, const rheo::Edge& edge) {
   rheo::Vec2 low{rheo::forever, rheo::forever}, high{-rheo::forever, -rheo::forever};
-  for (const rheo::Vec2& p : scene.mesh.points) {
+  for (std::size_t i = 0; i < scene.mesh.points.size(); ++i) {
+    if (pieces[i] != pieces[static_cast<std::size_t>(edge[0])]) continue;
+    const rheo::Vec2 p = scene.mesh.points[i];
     low = {std::min(low.x, p.x), std::min(low.y, p.y)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y)};
   }
-  const rheo::Moduli moduli = scene.material.instantaneous();
+  const rheo::Moduli moduli = material_at(scene, edge).instantaneous();
   const double stiffness = moduli.lambda + 2.0 * moduli.mu;
   const double size = std::hypot(high.x - low.x, high.y - low.y);
   return 0.5 * (stiffness > 0.0 ? stiffness : 1.0) / size;

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
 #include "render/mesh_picture.hpp"
@@ -13,16 +12,27 @@
 
 namespace app::view {
 
-// Boundary edges within `radius` pixels of the cursor, by the middle of the edge; else the nearest one that
-// is as near itself. At most `most`, the nearest first.
-std::vector<rheo::Edge> edges_at(const Display& display, const render::PlaneInPicture& plane,
-                                 std::array<double, 2> cursor, double radius, std::size_t most);
+// Pieces of a mesh that hang together: of each node, the number of its own.
+std::vector<int> pieces_of(const rheo::Mesh& mesh);
 
-// Mean place of the edges' middles. [m]
-rheo::Vec2 middle_of(const std::vector<rheo::Edge>& edges, std::span<const double> positions);
+// A place on an edge, which goes with it: 0 at its first node, 1 at its second.
+struct Grip {
+  rheo::Edge edge{0, 0};
+  double along = 0.0;
+};
+rheo::Vec2 place_of(const Grip& grip, std::span<const double> positions);  // [m]
 
-// Pa a metre of drag: a drag over half the body's diagonal makes a stress of a quarter of the instantaneous
-// stiffness lambda + 2 mu.
-double default_push(const rheo::Scene& scene);
+struct Reach {
+  std::vector<rheo::Edge> edges;  // empty: none is near
+  Grip nearest;                   // of them, to the cursor
+};
+// Boundary edges of the nearest piece within `radius` pixels of the cursor, by the middle of the edge; else
+// the nearest one that is as near itself. At most `most`, the nearest first.
+Reach reach_at(const Display& display, const std::vector<int>& pieces, const render::PlaneInPicture& plane,
+               std::array<double, 2> cursor, double radius, std::size_t most);
+
+// Pa a metre of drag: a drag over half the diagonal of the edge's piece makes a stress of a quarter of the
+// instantaneous stiffness lambda + 2 mu of the material there.
+double default_push(const rheo::Scene& scene, const std::vector<int>& pieces, const rheo::Edge& edge);
 
 }  // namespace app::view

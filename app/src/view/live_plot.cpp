@@ -1,9 +1,12 @@
 #include "view/live_plot.hpp"
 
 #include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace app::view {
 
@@ -24,12 +27,41 @@ std::vector<double> axis_ticks(double low, double high, int count) {
   return ticks;
 }
 
+std::vector<double> labelled_ticks(double low, double high, int most,
+                                   const std::function<bool(const std::vector<double>&)>& fit) {
+  std::vector<double> few;
+  for (int count = std::max(most, 3); count > 0; --count) {
+    std::vector<double> ticks = axis_ticks(low, high, count);
+    if (!fit(ticks)) continue;
+    if (ticks.size() >= 2) return ticks;
+    if (few.empty()) few = std::move(ticks);
+  }
+  return few;
+}
+
+namespace {
+
+constexpr const char* prefixes[]{"p", "n", "\u00b5", "m", "", "k", "M", "G", "T"};
+
+// The prefix that gives one to three digits before the point; 0: none.
+int group_of(double size) {
+  return std::clamp(static_cast<int>(std::floor(std::log10(size * 1.0005) / 3.0)), -4, 4);
+}
+
+}  // namespace
+
+PrefixedUnit prefixed_unit(double largest, const char* unit) {
+  const double size = std::abs(largest);
+  if (!(size > 0.0) || !std::isfinite(size)) return {1.0, unit};
+  const int group = group_of(size);
+  return {std::pow(1000.0, group), std::string(prefixes[group + 4]) + unit};
+}
+
 std::string short_number(double value) {
   if (value == 0.0 || !std::isfinite(value)) return value == 0.0 ? "0" : "-";
-  static constexpr const char* prefixes[]{"p", "n", "\u00b5", "m", "", "k", "M", "G", "T"};
   const double size = std::abs(value);
-  const int group = std::clamp(static_cast<int>(std::floor(std::log10(size * 1.0005) / 3.0)), -4, 4);
   if (size < 1e-13) return fmt::format("{:.1e}", value);
+  const int group = group_of(size);
   return fmt::format("{:.3g}{}", value / std::pow(1000.0, group), prefixes[group + 4]);
 }
 
@@ -65,7 +97,7 @@ void draw_curve(ImDrawList& list, const Frame& frame, std::span<const double> t,
 
 }  // namespace
 
-void live_plot(const PlotPlace& place, std::span<const double> t, std::span<const Curve> curves) {
+std::string live_plot(const PlotPlace& place, std::span<const double> t, std::span<const Curve> curves) {
   const auto& [title, unit, corner, size, hovered] = place;
   ImDrawList& list = *ImGui::GetWindowDrawList();
   const float text = ImGui::GetFontSize();
@@ -79,9 +111,11 @@ void live_plot(const PlotPlace& place, std::span<const double> t, std::span<cons
         low = std::min(low, y);
         high = std::max(high, y);
       }
-  if (!(high > low)) high = low + 1.0;
+  const bool flat = !(high > low);  // then it has no scale but its 0
+  if (flat) high = low + 1.0;
   const double room = 0.06 * (high - low);
-  const std::string heading = fmt::format("{} [{}]", title, unit);
+  const PrefixedUnit shown = flat ? PrefixedUnit{1.0, unit} : prefixed_unit(std::max(-low, high), unit);
+  const std::string heading = fmt::format("{} [{}]", title, shown.name);
   const float first = ImGui::CalcTextSize(heading.c_str()).x + 0.8f * text;
   float rows = 1.0f, end = first;  // of the legend
   for (const Curve& curve : curves) {
@@ -98,8 +132,9 @@ void live_plot(const PlotPlace& place, std::span<const double> t, std::span<cons
               t.empty() ? 1.0 : t.back(),
               low < 0.0 ? low - room : 0.0,
               high + room};
-  if (!(frame.x1 > frame.x0)) frame.x1 = frame.x0 + 1.0;
-  if (frame.high.x - frame.low.x < 20.0f || frame.high.y - frame.low.y < 20.0f) return;
+  const bool begun = frame.x1 > frame.x0 && t.size() > 1;
+  if (!begun) frame.x1 = frame.x0 + 1.0;
+  if (frame.high.x - frame.low.x < 20.0f || frame.high.y - frame.low.y < 20.0f) return heading;
 
   list.AddText({corner.x, corner.y}, ink, heading.c_str());
   float legend = corner.x + first, row = corner.y;
@@ -113,42 +148,64 @@ void live_plot(const PlotPlace& place, std::span<const double> t, std::span<cons
     list.AddText({legend + 1.1f * text, row}, soft, curve.name);
     legend += 1.9f * text + width;
   }
-  for (const double y : axis_ticks(
-           frame.y0, frame.y1, std::max(2, static_cast<int>((frame.high.y - frame.low.y) / (2.0f * text))))) {
+  list.AddLine({frame.low.x, frame.high.y}, frame.high, soft);
+  list.AddLine(frame.low, {frame.low.x, frame.high.y}, soft);
+  if (!begun) {
+    const char* const words = "nothing yet";
+    const ImVec2 extent = ImGui::CalcTextSize(words);
+    list.AddText({(frame.low.x + frame.high.x - extent.x) / 2, (frame.low.y + frame.high.y - extent.y) / 2},
+                 soft, words);
+    return heading;
+  }
+
+  const auto height_of = [&](double y) { return frame.at(frame.x0, y).y; };
+  const auto apart = [&](const std::vector<double>& at) {
+    return at.size() < 2 || height_of(at[0]) - height_of(at[1]) >= 1.3f * text;
+  };
+  const std::vector<double> levels =
+      flat ? std::vector<double>{0.0}
+           : labelled_ticks(frame.y0, frame.y1,
+                            static_cast<int>((frame.high.y - frame.low.y) / (2.0f * text)), apart);
+  for (const double y : levels) {
     const ImVec2 p = frame.at(frame.x0, y);
-    list.AddLine(p, {frame.high.x, p.y}, grid);
-    const std::string label = short_number(std::abs(y) < 1e-12 * (frame.y1 - frame.y0) ? 0.0 : y);
+    if (!flat) list.AddLine(p, {frame.high.x, p.y}, grid);
+    const std::string label =
+        fmt::format("{:.4g}", std::abs(y) < 1e-12 * (frame.y1 - frame.y0) ? 0.0 : y / shown.size);
     list.AddText({p.x - ImGui::CalcTextSize(label.c_str()).x - 0.3f * text, p.y - 0.5f * text}, soft,
                  label.c_str());
   }
-  float free = corner.x;  // of labels, from the left
-  for (const double x : axis_ticks(
-           frame.x0, frame.x1, std::max(2, static_cast<int>((frame.high.x - frame.low.x) / (5.0f * text))))) {
+  const auto time_text = [](double x) { return fmt::format("{:.6g} s", x); };
+  const auto extent_of = [&](double x) -> std::array<float, 2> {
+    const float width = ImGui::CalcTextSize(time_text(x).c_str()).x, middle = frame.at(x, frame.y0).x;
+    const float left =
+        std::clamp(middle - width / 2, corner.x, std::max(corner.x, corner.x + size.x - width));
+    return {left, left + width};
+  };
+  const auto beside = [&](const std::vector<double>& at) {
+    for (std::size_t i = 1; i < at.size(); ++i)
+      if (extent_of(at[i])[0] < extent_of(at[i - 1])[1] + 0.5f * text) return false;
+    return true;
+  };
+  for (const double x : labelled_ticks(
+           frame.x0, frame.x1, static_cast<int>((frame.high.x - frame.low.x) / (4.0f * text)), beside)) {
     const ImVec2 p = frame.at(x, frame.y0);
-    list.AddLine(p, {p.x, p.y + 0.25f * text}, soft);
-    const std::string label = fmt::format("{:.4g} s", x);
-    const float width = ImGui::CalcTextSize(label.c_str()).x;
-    const float left = std::clamp(p.x - width / 2, corner.x, std::max(corner.x, corner.x + size.x - width));
-    if (left < free) continue;  // it would touch the one before
-    free = left + width + 0.5f * text;
-    list.AddText({left, p.y + 0.25f * text}, soft, label.c_str());
+    list.AddLine({p.x, frame.high.y}, {p.x, frame.high.y + 0.25f * text}, soft);
+    list.AddText({extent_of(x)[0], frame.high.y + 0.25f * text}, soft, time_text(x).c_str());
   }
-  list.AddLine({frame.low.x, frame.high.y}, frame.high, soft);
-  list.AddLine(frame.low, {frame.low.x, frame.high.y}, soft);
   list.PushClipRect(frame.low, {frame.high.x, frame.high.y + 1.0f}, true);
   for (const Curve& curve : curves) draw_curve(list, frame, t, curve);
   list.PopClipRect();
 
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  if (!hovered || t.empty() || mouse.x < frame.low.x || mouse.x > frame.high.x) return;
+  if (!hovered || mouse.x < frame.low.x || mouse.x > frame.high.x) return heading;
   const double x = frame.x0 + (mouse.x - frame.low.x) / (frame.high.x - frame.low.x) * (frame.x1 - frame.x0);
   const auto after = static_cast<std::size_t>(std::lower_bound(t.begin(), t.end(), x) - t.begin());
   const std::size_t i = std::min(after, t.size() - 1);
   list.AddLine({mouse.x, frame.low.y}, {mouse.x, frame.high.y}, soft);
   std::string values = fmt::format("t = {:.4g} s", t[i]);
-  for (const Curve& curve : curves)
-    values += fmt::format("\n{} {} {}", curve.name, short_number(curve.y[i]), unit);
+  for (const Curve& curve : curves) values += fmt::format("\n{} {}", curve.name, with_unit(curve.y[i], unit));
   ImGui::SetTooltip("%s", values.c_str());
+  return heading;
 }
 
 }  // namespace app::view

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "view/ui.hpp"
@@ -30,13 +31,16 @@ rheo::MaxwellBranch another(const rheo::Material& m) {
 
 void Ui::draw_material_section() {
   if (!widgets_.begin_section("Material", Widgets::At::first_open)) return;
-  draw_material(draft_->material, base_->material);
-  for (std::size_t i = 0; i < draft_->regions.size() && i < base_->regions.size(); ++i) {
-    const std::string& name = base_->regions[i].name;
+  if (draft_->regions.empty()) draw_material(draft_->material, base_->material);
+  // Of several each has its name.
+  const std::size_t count = std::min(draft_->regions.size(), base_->regions.size()) + 1;
+  for (std::size_t i = 0; i < count && count > 1; ++i) {
+    const std::string& name = i == 0 ? base_->material_name : base_->regions[i - 1].name;
     const std::string title =
-        name.empty() ? fmt::format("material {}", i + 2) : fmt::format("material {}, {}", i + 2, name);
-    if (!widgets_.begin_tree(title.c_str())) continue;
-    draw_material(draft_->regions[i], base_->regions[i].material);
+        name.empty() ? fmt::format("material {}", i + 1) : fmt::format("material {}, {}", i + 1, name);
+    if (!widgets_.begin_tree(title.c_str(), i == 0 ? Widgets::At::first_open : Widgets::At::first_closed))
+      continue;
+    draw_material(i == 0 ? draft_->material : draft_->regions[i - 1], rheo::material_of(*base_, i));
     widgets_.end_tree();
   }
   widgets_.end_section();

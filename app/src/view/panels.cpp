@@ -25,6 +25,21 @@ constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlag
                                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
+// Always there: what came and went would move the slider that is being dragged.
+const char* session_line(SessionState state) {
+  switch (state) {
+    case SessionState::nothing_yet:
+      return "session: nothing has happened yet";
+    case SessionState::whole:
+      return "session: whole, Ctrl+S saves it";
+    case SessionState::parameters_changed:
+      return "no session: changed at t > 0, R begins one";
+    case SessionState::too_long:
+      return "no session: too long to save, R begins one";
+  }
+  return "";
+}
+
 }  // namespace
 
 void Ui::label(const std::string& text) {
@@ -39,13 +54,12 @@ void Ui::draw_panels() {
 }
 
 void Ui::draw_controls() {
-  const Display& d = *display_;
   ImGui::SetNextWindowPos({0.0f, 0.0f});
   ImGui::SetNextWindowSize(
       {static_cast<float>(panel_width_), static_cast<float>(window_[1] - strip_height_)});
   ImGui::Begin("controls", nullptr, fixed);
   ImGui::PushItemWidth(-0.36f * static_cast<float>(panel_width_));
-  if (widgets_.button(d.running ? "Pause" : "Run")) act(Action::run_or_pause);
+  if (widgets_.button(is_running() ? "Pause" : "Run")) act(Action::run_or_pause);
   ImGui::SameLine();
   if (widgets_.button("Step")) act(Action::one_tick);
   ImGui::SameLine();
@@ -55,6 +69,7 @@ void Ui::draw_controls() {
   ImGui::SameLine();
   if (widgets_.button("Help")) act(Action::help);
   if (widgets_.slider("speed", &speed_, slowest, fastest, "x%.3g of real time")) physics_.set_speed(speed_);
+  label(session_line(display_->session));
   draw_hand_section();
   draw_colour_section();
   draw_material_section();
@@ -71,8 +86,9 @@ void Ui::draw_hand_section() {
   ImGui::SameLine();
   if (widgets_.radio("grab", mode_ == Hold::grab) && !dragging_) mode_ = Hold::grab;
   widgets_.slider("brush", &brush_, smallest_brush, largest_brush, "%.0f pixels");
-  const double usual = default_push(*display_->scene);
-  widgets_.slider("strength", &push_gain_, usual * 1e-3, usual * 1e3, "%.6g Pa/m");
+  double strength = push_gain();
+  if (widgets_.slider("strength", &strength, usual_push_ * 1e-3, usual_push_ * 1e3, "%.6g Pa/m"))
+    chosen_push_ = strength;
   widgets_.end_section();
 }
 
@@ -173,18 +189,25 @@ void Ui::draw_truth_and_plots() {
 
 void Ui::draw_truth() {
   const Display& d = *display_;
-  const Percentiles draw = percentiles_of(draw_seconds_), physics = percentiles_of(physics_seconds_);
-  const double interval = percentiles_of(intervals_).median;
-  if (!d.running || d.resting)
-    label(d.resting ? "at rest: no steps, no frames" : "paused");
+  const bool still = !is_running() || d.resting;
+  const double rate = frame_times_.frames_per_second();
+  const std::string frames =
+      rate > 0.0 ? fmt::format("{:.{}f}", rate, rate < 9.95 ? 1 : 0) : std::string("-");
+  if (still)
+    label(d.resting ? "at rest: no steps, no frames" : "paused: no steps, frames on input");
   else
-    label(fmt::format("{:.0f} frames/s, real time x{:.2f}", interval > 0.0 ? 1.0 / interval : 0.0,
-                      d.real_time_factor));
+    label(fmt::format("{} frames/s, real time x{:.2f}", frames, d.real_time_factor));
+  // What frames on input alone take tells nothing of those in a row.
+  const auto cost = [&](const char* what, const Percentiles& p) {
+    label(still ? fmt::format("{} -", what)
+                : fmt::format("{} {:.2f}, {:.2f} ms", what, 1e3 * p.median, 1e3 * p.high));
+  };
   ImGui::TextDisabled("a frame: median, 99th percentile");
-  label(fmt::format("physics {:.2f}, {:.2f} ms", 1e3 * physics.median, 1e3 * physics.high));
-  label(fmt::format("drawing {:.2f}, {:.2f} ms", 1e3 * draw.median, 1e3 * draw.high));
-  label(fmt::format("{:.0f} steps a frame of {}", percentiles_of(steps_).median,
-                    d.largest_step > 0.0 ? with_unit(d.largest_step, "s") : std::string("-")));
+  cost("physics", frame_times_.physics());
+  cost("drawing", frame_times_.drawing());
+  const std::string step = d.largest_step > 0.0 ? with_unit(d.largest_step, "s") : std::string("-");
+  label(still ? fmt::format("0 steps a frame of {}", step)
+              : fmt::format("{:.0f} steps a frame of {}", frame_times_.steps().median, step));
   label(fmt::format("stable step {}",
                     std::isfinite(d.stable_step) ? with_unit(d.stable_step, "s") : std::string("any")));
   label(fmt::format("kernel {}, {} {}, {} triangles", d.kernel, d.threads,
@@ -203,8 +226,7 @@ void Ui::draw_plots(float width, float height) {
   const auto plot = [&](const char* title, const char* unit, std::span<const Curve> curves) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const bool hovered = widgets_.area(title, size);
-    live_plot({title, unit, corner, size, hovered}, h.t, curves);
-    labels_.push_back(fmt::format("{} [{}]", title, unit));
+    labels_.push_back(live_plot({title, unit, corner, size, hovered}, h.t, curves));
   };
   const Curve residual[]{{"λ", h.w_lambda, blue}, {"μ", h.w_mu, orange}};
   plot("|w|", "Pa m", residual);

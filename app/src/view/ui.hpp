@@ -12,14 +12,18 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "render/screen.hpp"
+#include "view/draft.hpp"
+#include "view/frame_times.hpp"
 #include "view/hand.hpp"
 #include "view/input.hpp"
 #include "view/key_bindings.hpp"
+#include "view/notes.hpp"
 #include "view/physics.hpp"
 #include "view/picture.hpp"
 #include "view/recording.hpp"
@@ -37,23 +41,6 @@ struct UiSettings {
   PictureStyle style;
   // Reads a scene file; rheo::Error otherwise.
   std::function<rheo::Scene(const std::filesystem::path&)> read;
-};
-
-struct Percentiles {
-  double median = 0.0, high = 0.0;  // the 99th
-};
-Percentiles percentiles_of(const std::deque<double>& values);
-
-// The few parameters that the panels change; applied to the scene between steps.
-struct Draft {
-  rheo::Material material;
-  std::vector<rheo::Material> regions;  // of the others in the mesh
-  rheo::Vec2 acceleration;
-  rheo::TimeSettings time;
-  std::vector<rheo::Vec2> tractions;  // of those with one value; others stay
-
-  explicit Draft(const rheo::Scene& scene);
-  rheo::Scene on(const rheo::Scene& scene) const;
 };
 
 inline constexpr float smallest_brush = 6.0f, largest_brush = 300.0f;  // pixels
@@ -86,6 +73,7 @@ class Ui {
   // What was written in the last frame by the panels, line by line, and where widgets lie: for tests.
   const std::vector<Widgets::Seen>& widgets() const { return widgets_.seen(); }
   const std::vector<std::string>& labels() const { return labels_; }
+  const std::vector<Area>& plates() const { return plates_; }  // of notes over the picture
   const History& history() const { return display_->history; }
   const PictureStyle& style() const { return style_; }
   Hold mode() const { return mode_; }
@@ -95,18 +83,45 @@ class Ui {
  private:
   void take_display();
   void take_input(const Input& input);
-  void lay_out(const Input& input);
   void take_draft();
   void take_keys(const Input& input);
-  void act(Action action);
-  void reset();
-  void toggle_recording();
+  void lay_out(const Input& input);
+  void note_times(const Input& input);
+  void say(std::string text);
+  void edit() { physics_.edit(draft_->on(*display_->scene)); }
+
+  // ui_hand.cpp
   void use_hand();
   void end_hand();
-  void note_times(const Input& input);
+  double push_gain() const { return chosen_push_.value_or(usual_push_); }
+  // ui_recording.cpp
+  void toggle_recording();
+  void end_recording(std::string why);
   void record();
-
+  bool record_frame();
+  // ui_actions.cpp
+  enum class Saved { picture, window };
+  void act(Action action);
+  void run();
+  void pause();
+  void run_or_pause();
+  bool is_running() const;
+  void step();
+  void reset();
+  void set_speed(double speed);
+  void load(const std::filesystem::path& file);
+  void save_session();
+  void save_picture(Saved what);
+  // ui_style.cpp
+  void set_style_colors();
+  void set_scale(float scale);
+  void load_fonts();
   // overlay.cpp
+  struct Clock {
+    std::string full, brief;
+    enum class Kind { plain, alarm } kind;
+  };
+  Clock clock() const;
   void draw_overlay();
   // material_panel.cpp
   struct BranchValues {
@@ -131,17 +146,6 @@ class Ui {
   void draw_help();
   void label(const std::string& text);
 
-  void set_style_colors();
-  void set_scale(float scale);
-  void load_fonts();
-  void say(std::string text);
-  void edit() { physics_.edit(draft_->on(*display_->scene)); }
-  void load(const std::filesystem::path& file);
-  void save_session();
-  void save_picture(bool whole);
-  void toggle_run();
-  void set_speed(double speed);
-
   Physics& physics_;
   UiSettings settings_;
   ImGuiContext* imgui_;
@@ -164,10 +168,12 @@ class Ui {
   std::vector<char> was_down_ = std::vector<char>(key_count, 0);
 
   Hold mode_ = Hold::push;
-  float brush_ = 26.0f;        // pixels
-  double push_gain_ = 1.0;     // Pa a metre
-  std::int64_t gain_of_ = -1;  // body
+  float brush_ = 26.0f;      // pixels
+  double usual_push_ = 1.0;  // Pa a metre, of the material pressed last
+  std::optional<double> chosen_push_;
+  std::vector<int> pieces_;  // of the body's nodes
   std::vector<rheo::Edge> hovered_;
+  Grip grip_;
   bool dragging_ = false;
   rheo::Vec2 drag_from_, drag_to_;
   rheo::Vec2 aimed_;
@@ -181,18 +187,20 @@ class Ui {
   std::string toast_;
   double toast_left_ = 0.0;  // [s]
 
-  std::deque<double> intervals_, draw_seconds_, physics_seconds_, steps_, frame_seconds_;
+  FrameTimes frame_times_;
+  std::deque<double> frame_seconds_;
   double busy_before_ = 0.0;
   std::int64_t steps_before_ = 0;
 
-  bool run_after_recording_ = false;
+  bool recording_runs_ = false;  // else it waits
   double wanted_ticks_ = 0.0;
-  std::int64_t recorded_ticks_ = -1;
+  std::int64_t recorded_ticks_ = -1, asked_ticks_ = 0;
   std::array<int, 2> recorded_size_{};
 
   std::vector<std::filesystem::path> scenes_;
   Widgets widgets_;
   std::vector<std::string> labels_;
+  std::vector<Area> plates_;
 };
 
 }  // namespace app::view

@@ -118,8 +118,8 @@ void Widgets::end_section() {
   ImGui::PopID();
 }
 
-bool Widgets::begin_tree(const char* name) {
-  const bool open = ImGui::TreeNode(name);
+bool Widgets::begin_tree(const char* name, At first) {
+  const bool open = ImGui::TreeNodeEx(name, first == At::first_open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
   note(name);
   if (open) {
     path_ends_.push_back(path_.size());

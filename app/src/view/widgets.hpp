@@ -49,7 +49,7 @@ class Widgets {
   enum class At { first_open, first_closed };
   bool begin_section(const char* name, At first);
   void end_section();
-  bool begin_tree(const char* name);
+  bool begin_tree(const char* name, At first = At::first_closed);
   void end_tree();
 
  private:

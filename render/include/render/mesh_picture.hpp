@@ -89,6 +89,11 @@ struct PlaneInPicture {
   }
 };
 
+// Pixels from the picture's top left.
+struct PictureArea {
+  float x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
 // What frames and sheets have cost so far.
 struct PictureCounters {
   std::int64_t frames_drawn = 0;
@@ -121,6 +126,8 @@ class MeshPicture {
   const MeshView& view() const;
   // Of the frames as drawn with the view as it is.
   PlaneInPicture plane() const;
+  // What title and colour bar leave to the body.
+  PictureArea body_area() const;
   // The framebuffer's name in the context, top row first.
   unsigned framebuffer() const;
   int width() const;
