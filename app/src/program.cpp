@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <filesystem>
@@ -49,6 +50,12 @@ void run_command(int argc, char** argv) {
 }
 
 }  // namespace
+
+void end_at_once(const Failure& failure) {
+  const int code = report(failure.code(), failure.what());
+  std::fflush(stderr);
+  std::_Exit(code);
+}
 
 int run_program(int argc, char** argv) {
   prepare_standard_streams();

@@ -104,7 +104,7 @@ start() {
 }
 start block.toml Block -o saved --close-after 180
 colours() { # how many a picture has
-  import -window "$window" "$1.png" && convert "$1.png" -format %k info:
+  timeout 30 import -window "$window" "$1.png" && convert "$1.png" -format %k info:
 }
 waited=0
 until [ "$(colours start)" -gt 50 ]; do # until it has drawn
@@ -245,7 +245,44 @@ program=
 [ $code = 0 ] || fail "closed, exit code $code"
 grep -q ' frames in ' log || fail "closed, no summary line"
 
+# ends CODE WHAT: the program ends by itself, with one line on standard error and a summary.
+ends() {
+  waited=0
+  while kill -0 "$program" 2>/dev/null; do
+    sleep 0.2
+    waited=$((waited + 1))
+    [ $waited -lt 100 ] || fail "$2: it goes on"
+  done
+  wait "$program"
+  code=$?
+  program=
+  [ $code = "$1" ] || fail "$2: exit code $code instead of $1"
+  grep -q ' frames in ' log || fail "$2: no summary line"
+  [ "$(grep -vc ' frames in ' log)" = 1 ] || fail "$2: not one line beside the summary"
+}
+
+# Told to.
+start block.toml Block
+kill -TERM "$program"
+ends 143 "SIGTERM"
+
 # By itself, and in silence.
 "$rheo" view block.toml --close-after 1 --quiet >log 2>&1 || fail "--close-after: exit code $?"
 [ -s log ] && fail "--quiet: it writes"
+
+# The display goes away under it, while it records what moves.
+start pulled.toml Pulled -o lost
+press F9
+waited=0
+until [ -s lost/frames_001/frame_00003.png ]; do
+  sleep 0.2
+  waited=$((waited + 1))
+  [ $waited -lt 100 ] || fail "nothing is recorded"
+done
+kill -KILL "$xvfb"
+xvfb=
+ends 4 "no display any more"
+for frame in lost/frames_001/*.png; do
+  convert "$frame" -format '' info: || fail "no display any more: $frame is not whole"
+done
 echo passed

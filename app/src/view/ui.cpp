@@ -56,9 +56,13 @@ Ui::Ui(render::Context& context, Physics& physics, UiSettings settings)
 }
 
 Ui::~Ui() {
-  if (recording_.is_on()) recording_.stop();
+  finish_files();
   ImGui::SetCurrentContext(imgui_);
   ImGui::DestroyContext(imgui_);
+}
+
+void Ui::finish_files() {
+  if (recording_.is_on()) recording_.stop();
 }
 
 void Ui::say(std::string text) {

@@ -64,6 +64,8 @@ class Ui {
   // Whether the next frame will differ though nothing is pressed.
   bool is_lively() const { return lively_; }
   bool wants_to_quit() const { return quit_; }
+  // A recording ends with the frames it has.
+  void finish_files();
 
   const Display& shown() const { return *display_; }
   Picture& picture() { return picture_; }

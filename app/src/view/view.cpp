@@ -5,11 +5,14 @@
 #include <chrono>
 #include <cstdio>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include "failure.hpp"
+#include "program.hpp"
+#include "view/display_loss.hpp"
 #include "view/glfw_window.hpp"
 #include "view/signal_watch.hpp"
 #include "view/view_setup.hpp"
@@ -30,8 +33,22 @@ std::string title_of(const rheo::Scene& scene) {
   return scene.title.empty() ? "rheo" : scene.title + " - rheo";
 }
 
+void print_summary(const view::Ui& ui, Clock::time_point start) {
+  const view::Percentiles frames = view::percentiles_of(ui.frame_seconds());
+  fmt::print(
+      "{} frames in {:.1f} s, median {:.2f} ms, 99th percentile {:.2f} ms a frame; {} steps to t = {:.3f} "
+      "s\n",
+      ui.frame_seconds().size(), seconds_since(start), 1e3 * frames.median, 1e3 * frames.high,
+      ui.shown().steps, ui.shown().t);
+}
+
+// Whoever finds out that the display is gone waits for a frame that is being drawn, at most so long.
+constexpr std::chrono::seconds patience{2};
+using DrawingMutex = std::recursive_timed_mutex;
+
 // Frames at the display's rate while something moves; else none until something happens.
-void show(view::GlfwWindow& window, view::Ui& ui, const view::SignalWatch& signals, double close_after) {
+void show(view::GlfwWindow& window, view::Ui& ui, const view::SignalWatch& signals, DrawingMutex& drawing,
+          double close_after) {
   const Clock::time_point start = Clock::now();
   Clock::time_point last = start;
   std::shared_ptr<const rheo::Scene> scene = ui.shown().scene;
@@ -52,12 +69,15 @@ void show(view::GlfwWindow& window, view::Ui& ui, const view::SignalWatch& signa
     }
     const double interval = seconds_since(last);
     last = Clock::now();
-    ui.frame(window.inputs(interval));
+    {
+      const std::lock_guard lock(drawing);
+      ui.frame(window.inputs(interval));
+      ui.screen().present();
+    }
     if (ui.shown().scene != scene) {
       scene = ui.shown().scene;
       window.set_title(title_of(*scene));
     }
-    ui.screen().present();
     window.swap();
   }
 }
@@ -80,15 +100,16 @@ void view_scene(const Options& options) {
   physics.run();
   signals.start([&window] { window->wake(); });
   const Clock::time_point start = Clock::now();
-  show(*window, *ui, signals, options.close_after);
-  const double seconds = seconds_since(start);
-  const view::Percentiles frames = view::percentiles_of(ui->frame_seconds());
-  if (!options.quiet)
-    fmt::print(
-        "{} frames in {:.1f} s, median {:.2f} ms, 99th percentile {:.2f} ms a frame; {} steps to t = {:.3f} "
-        "s\n",
-        ui->frame_seconds().size(), seconds, 1e3 * frames.median, 1e3 * frames.high, ui->shown().steps,
-        ui->shown().t);
+  DrawingMutex drawing;
+  const view::DisplayLoss loss([&] {
+    if (drawing.try_lock_for(patience)) {
+      ui->finish_files();
+      if (!options.quiet) print_summary(*ui, start);
+    }
+    end_at_once(Failure(ExitCode::file, "view: the display is gone"));
+  });
+  show(*window, *ui, signals, drawing, options.close_after);
+  if (!options.quiet) print_summary(*ui, start);
   if (const int signal = signals.asked())
     throw Failure(signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated,
                   fmt::format("view: closed by {}", signal == SIGINT ? "SIGINT" : "SIGTERM"));
