@@ -106,8 +106,11 @@ inline Material random_material(std::mt19937& random, double density, double mod
   const auto response = [&](int most) {
     Response r;
     const int count = static_cast<int>(unit(random) * (most + 1));
-    for (int k = 0; k < count; ++k)
-      r.branches.emplace_back(modulus * decades(0.1, 3.0), frequency * decades(1e-2, 1e2));
+    for (int k = 0; k < count; ++k) {
+      const double rate =
+          frequency * decades(1e-2, 1e2);  // drawn by itself: compilers order arguments differently
+      r.branches.emplace_back(modulus * decades(0.1, 3.0), rate);
+    }
     if (unit(random) < 0.6) r.elastic = modulus * decades(0.1, 3.0);
     if (unit(random) < 0.6) r.viscous = modulus / frequency * decades(1e-3, 1.0);
     return r;

@@ -175,7 +175,7 @@ std::string live_plot(const PlotPlace& place, std::span<const double> t, std::sp
                  label.c_str());
   }
   const auto time_text = [](double x) { return fmt::format("{:.6g} s", x); };
-  const auto extent_of = [&](double x) -> std::array<float, 2> {
+  const auto extent_of = [&, corner = corner, size = size](double x) -> std::array<float, 2> {
     const float width = ImGui::CalcTextSize(time_text(x).c_str()).x, middle = frame.at(x, frame.y0).x;
     const float left =
         std::clamp(middle - width / 2, corner.x, std::max(corner.x, corner.x + size.x - width));
