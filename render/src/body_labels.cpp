@@ -25,6 +25,10 @@ bool inside(const Rect& r, const Rect& area) {
   return r.x0 >= area.x0 && r.x1 <= area.x1 && r.y0 >= area.y0 && r.y1 <= area.y1;
 }
 
+float distance(const Rect& a, const Rect& b) {
+  return std::hypot(std::max({a.x0 - b.x1, b.x0 - a.x1, 0.0f}), std::max({a.y0 - b.y1, b.y0 - a.y1, 0.0f}));
+}
+
 // Moved sideways into the area where it is not too wide for it.
 float left_end(float middle, float width, const Rect& area) {
   return std::max(area.x0, std::min(middle - width / 2, area.x1 - width));
@@ -65,7 +69,16 @@ std::vector<Rect> label_boxes(std::span<const Rect> bodies, std::span<const Poin
                                       {x, body.y0 - gap - height, x + width, body.y0 - gap},
                                       {right, y, right + width, y + height},
                                       {left, y, left + width, y + height}}};
-    const auto* const place = std::ranges::find_if(places, is_free);
+    // Not at another body, whose name it would be taken for; at the sides a little nearer to it will do for
+    // that.
+    const auto is_its_own = [&](const Rect& box) {
+      const float too_near = box.y0 == y ? 1.0f : 0.5f;
+      return is_free(box) && std::ranges::none_of(bodies, [&](const Rect& other) {
+               return &other != &body && !is_empty(other) &&
+                      distance(box, other) < too_near * distance(box, body);
+             });
+    };
+    const auto* const place = std::ranges::find_if(places, is_its_own);
     placed.push_back(place == places.end() ? nowhere : *place);
   }
   return placed;

@@ -48,6 +48,16 @@ TEST(LabelBoxes, ANameWithoutAPlaceIsLeftOut) {
   EXPECT_EQ(render::label_boxes(bodies, sizes, 2, {0, 0, 100, 100})[0].width(), 0);
 }
 
+// Small bodies in a row, with wide names and much room for arrows about them.
+TEST(LabelBoxes, ANameThatWouldStandBesideAnotherBodyIsLeftOut) {
+  const std::vector<Rect> bodies{{100, 50, 120, 70}, {125, 50, 145, 70}, {150, 50, 170, 70}};
+  const std::vector<render::Point> sizes{{70, 10}, {40, 10}, {60, 10}};
+  const auto boxes = render::label_boxes(bodies, sizes, 35, {0, 0, 250, 120});
+  EXPECT_FLOAT_EQ((boxes[0].x0 + boxes[0].x1) / 2, 110);
+  EXPECT_GT(boxes[1].width(), 0) << "above, as below is taken";
+  EXPECT_EQ(boxes[2].width(), 0) << "at " << boxes[2].x0 << ", " << boxes[2].y0;
+}
+
 TEST_F(MeshPictures, NamesAreWrittenBelowTheBody) {
   Body body = bodies::rectangle(2, 1, 5, 3);
   const std::vector<render::BodyLabel> labels{{"block", 0, static_cast<int>(body.nodes())}};

@@ -87,11 +87,12 @@ struct Frame {
 
 // Piece by piece: a polyline's mitres leave gaps at sharp peaks.
 void draw_curve(ImDrawList& list, const Frame& frame, std::span<const double> t, const Curve& curve) {
+  const float width = 0.11f * ImGui::GetFontSize();
   const std::size_t stride = 1 + t.size() / 1200;
   for (std::size_t i = stride; i < t.size(); i += stride) {
     const double from = curve.y[i - stride], to = curve.y[i];
     if (std::isfinite(from) && std::isfinite(to))
-      list.AddLine(frame.at(t[i - stride], from), frame.at(t[i], to), curve.color, 1.6f);
+      list.AddLine(frame.at(t[i - stride], from), frame.at(t[i], to), curve.color, width);
   }
 }
 
@@ -144,7 +145,8 @@ std::string live_plot(const PlotPlace& place, std::span<const double> t, std::sp
       legend = corner.x + 3.4f * text;
       row += 1.2f * text;
     }
-    list.AddLine({legend, row + 0.55f * text}, {legend + 0.9f * text, row + 0.55f * text}, curve.color, 2.5f);
+    list.AddLine({legend, row + 0.55f * text}, {legend + 0.9f * text, row + 0.55f * text}, curve.color,
+                 0.17f * text);
     list.AddText({legend + 1.1f * text, row}, soft, curve.name);
     legend += 1.9f * text + width;
   }

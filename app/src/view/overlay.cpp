@@ -64,7 +64,8 @@ Ui::Clock Ui::clock() const {
   const Display& d = *display_;
   if (recording_.is_on()) {
     const std::string text = fmt::format("recording, frame {}", recording_.frames());
-    return {recording_runs_ ? text : text + ": waits  (Space goes on)", text, Clock::Kind::alarm};
+    if (recording_runs_) return {text, text, Clock::Kind::alarm};
+    return {text + ": waits  (Space goes on)", text + ": waits", Clock::Kind::alarm};
   }
   if (!d.running) return {"paused  (Space runs)", "paused", Clock::Kind::plain};
   if (d.resting) return {"at rest", "at rest", Clock::Kind::plain};

@@ -43,7 +43,7 @@ const char* session_line(SessionState state) {
 }  // namespace
 
 void Ui::label(const std::string& text) {
-  ImGui::TextUnformatted(text.c_str());
+  ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
   labels_.push_back(text);
 }
 
@@ -259,11 +259,14 @@ void Ui::draw_help() {
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoMove);
   if (widgets_.button("Close")) help_ = false;
+  const ImGuiStyle& style = ImGui::GetStyle();
+  ImGui::PushTextWrapPos(width - style.ScrollbarSize - 2.0f * style.WindowPadding.x);
   for (const auto& [key, meaning] : help_lines()) {
     label(key);
     ImGui::SameLine(10.5f * text);
     label(meaning);
   }
+  ImGui::PopTextWrapPos();
   ImGui::End();
 }
 
