@@ -153,6 +153,8 @@ struct MeshPicture::Impl {
     const float square = std::max(widest, 1.2f * text + dot);
     const auto columns = static_cast<std::ptrdiff_t>(static_cast<float>(canvas.width()) / square) + 1;
     const auto rows = static_cast<std::ptrdiff_t>(static_cast<float>(canvas.height()) / square) + 1;
+    Color plate = canvas.palette().paper;
+    plate.a = 205;
     std::vector<std::vector<Rect>> taken(static_cast<std::size_t>(columns * rows));
     const auto is_free = [&](const Rect& box, std::ptrdiff_t column, std::ptrdiff_t row) {
       for (std::ptrdiff_t r = std::max<std::ptrdiff_t>(row - 1, 0); r < std::min(row + 2, rows); ++r)
@@ -175,6 +177,8 @@ struct MeshPicture::Impl {
                  row = static_cast<std::ptrdiff_t>(p.y / square);
       if (!is_free(box, column, row)) continue;
       taken[static_cast<std::size_t>(row * columns + column)].push_back(box);
+      // To be read on any colour.
+      canvas.rect({p.x + 0.2f * text, box.y0, box.x1, p.y - 0.05f * text}, plate, 0.2f * text);
       canvas.disk(p, dot, canvas.palette().ink);
       canvas.text({p.x + 0.3f * text, p.y - 0.6f * text}, Align::left, TextSize::small, canvas.palette().ink,
                   number);

@@ -205,9 +205,9 @@ void Ui::draw_truth() {
   ImGui::TextDisabled("a frame: median, 99th percentile");
   cost("physics", frame_times_.physics());
   cost("drawing", frame_times_.drawing());
-  const std::string step = d.largest_step > 0.0 ? with_unit(d.largest_step, "s") : std::string("-");
-  label(still ? fmt::format("0 steps a frame of {}", step)
-              : fmt::format("{:.0f} steps a frame of {}", frame_times_.steps().median, step));
+  const std::string length =
+      d.largest_step > 0.0 ? fmt::format(" of {}", with_unit(d.largest_step, "s")) : std::string();
+  label(fmt::format("{:.0f} steps a frame{}", still ? 0.0 : frame_times_.steps().median, length));
   label(fmt::format("stable step {}",
                     std::isfinite(d.stable_step) ? with_unit(d.stable_step, "s") : std::string("any")));
   label(fmt::format("kernel {}, {} {}, {} triangles", d.kernel, d.threads,
