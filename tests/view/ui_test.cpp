@@ -348,6 +348,35 @@ TEST(ViewUi, APushThatThePhysicsHasNotTakenIsNotShown) {
   EXPECT_FALSE(user.says("push 0 Pa"));
 }
 
+TEST(ViewUi, AMessageGoesWhenItHasBeenReadAtRestToo) {
+  RHEO_DRAW_OR_SKIP(context);
+  Driver user(*context, block(), output_folder());
+  EXPECT_EQ(user.ui.next_change(), rheo::forever);
+  user.key(Key::f12);
+  EXPECT_TRUE(user.says("saved "));
+  user.frames(10);
+  EXPECT_FALSE(user.ui.is_lively());
+  const double left = user.ui.next_change();
+  EXPECT_GT(left, 5.0);
+  EXPECT_LT(left, 10.0);
+  user.input.seconds = left;
+  user.frame();
+  EXPECT_FALSE(user.says("saved "));
+  EXPECT_EQ(user.ui.next_change(), rheo::forever);
+}
+
+TEST(ViewUi, ARecordingSlowerThanATickAFrameSaysHowFastItIs) {
+  RHEO_DRAW_OR_SKIP(context);
+  Driver user(*context, block(), output_folder());
+  for (int k = 0; k < 7; ++k) user.key(Key::minus);
+  user.key(Key::f9);
+  EXPECT_TRUE(user.says("a tick a frame, x0.06 of real time"));
+  user.key(Key::space);
+  ASSERT_TRUE(user.until([](const Display& d) { return d.ticks >= 5; }));
+  EXPECT_EQ(user.ui.shown().ticks, 5);
+  EXPECT_TRUE(user.says("recording, frame 6"));
+}
+
 TEST(ViewUi, TheSessionsStateIsToldFromTheFirstChangeOn) {
   RHEO_DRAW_OR_SKIP(context);
   Driver user(*context, block(), output_folder());

@@ -63,6 +63,8 @@ class Ui {
   render::Screen& screen() { return screen_; }
   // Whether the next frame will differ though nothing is pressed.
   bool is_lively() const { return lively_; }
+  // [s] Until a frame is due though nothing is pressed and nothing moves: a message has been read.
+  double next_change() const { return toast_left_ > 0.0 ? toast_left_ : rheo::forever; }
   bool wants_to_quit() const { return quit_; }
   // A recording ends with the frames it has.
   void finish_files();

@@ -21,7 +21,11 @@ std::int64_t tick_at(double ticks) {
 
 void Ui::toggle_recording() {
   if (recording_.is_on()) return end_recording(recording_.stop());
-  say(recording_.start());
+  std::string told = recording_.start();
+  // Between ticks there is nothing to record.
+  if (const double least = recorded_rate / physics_.rate(); recording_.is_on() && speed_ < least)
+    told += fmt::format(": a tick a frame, x{:.2g} of real time", least);
+  say(std::move(told));
   if (!recording_.is_on()) return;
   // Paused it waits as the body does.
   recording_runs_ = display_->running;

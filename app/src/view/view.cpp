@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -65,7 +66,7 @@ void show(view::GlfwWindow& window, view::Ui& ui, const view::SignalWatch& signa
       while (seconds_since(last) < 0.9 * window.frame_period())
         window.wait(0.95 * window.frame_period() - seconds_since(last));
     } else {
-      window.wait(left);
+      window.wait(std::min(left, ui.next_change()));
     }
     const double interval = seconds_since(last);
     last = Clock::now();
