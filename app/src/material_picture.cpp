@@ -104,7 +104,7 @@ std::vector<std::string> draw_material(const rheo::Scene& scene, const MaterialC
   relaxation.add("r_lambda", c.t, c.r_lambda);
   relaxation.add("r_mu", c.t, c.r_mu);
   if (relaxation.empty())
-    notes.push_back("no relaxation.png: after t = 0 there is no stress, nothing is elastic or relaxes");
+    notes.emplace_back("no relaxation.png: after t = 0 there is no stress, nothing is elastic or relaxes");
   else
     relaxation.draw(*context, folder, "relaxation" + ending + ".png");
 
@@ -116,7 +116,7 @@ std::vector<std::string> draw_material(const rheo::Scene& scene, const MaterialC
   moduli.add("mu, storage", c.frequency, c.mu_storage);
   moduli.add("mu, loss", c.frequency, c.mu_loss);
   if (moduli.empty())
-    notes.push_back("no moduli.png: the material resists nothing");
+    notes.emplace_back("no moduli.png: the material resists nothing");
   else
     moduli.draw(*context, folder, "moduli" + ending + ".png");
 
