@@ -346,6 +346,18 @@ TEST(ViewUi, APushThatThePhysicsHasNotTakenIsNotShown) {
   EXPECT_TRUE(user.says("push 0 Pa (0 N), paused"));
   ASSERT_TRUE(user.ticks(200));
   EXPECT_FALSE(user.says("push 0 Pa"));
+  EXPECT_TRUE(user.says("push "));
+  // Pressed again before the physics looks: what it still shows is the push before.
+  free = false;
+  user.physics.post([&free](app::view::Core&) {
+    while (!free) std::this_thread::yield();
+  });
+  user.release();
+  user.move(at[0], at[1]);
+  user.press();
+  EXPECT_FALSE(user.says("push "));
+  free = true;
+  ASSERT_TRUE(user.until([&](const Display&) { return user.says("push 0 Pa"); }));
 }
 
 TEST(ViewUi, AMessageGoesWhenItHasBeenReadAtRestToo) {

@@ -178,7 +178,7 @@ void Core::say(std::string message) {
   ++message_number_;
 }
 
-bool Core::begin(Hold hold, const std::vector<rheo::Edge>& edges) {
+bool Core::begin(Hold hold, const std::vector<rheo::Edge>& edges, std::int64_t press) {
   let_go();
   if (hold == Hold::nothing || edges.empty() || diverged_) return false;
   if (hold == Hold::grab && scene_->time.constraints == rheo::ConstraintMethod::baumgarte) {
@@ -195,6 +195,7 @@ bool Core::begin(Hold hold, const std::vector<rheo::Edge>& edges) {
       return false;
     }
     hold_ = hold;
+    press_ = press;
     edges_ = std::move(few);
     target_ = at_ = velocity_ = acceleration_ = {};
     still_ = false;
@@ -239,7 +240,7 @@ bool Core::change(rheo::Scene edited) {
   if (goes_on && saved.energies && std::isfinite(balance)) energy_start_ = balance;
   // What the hand has it keeps: a push as it is; a grab begins anew from where it is.
   const rheo::Vec2 target = target_, at = at_, velocity = velocity_, acceleration = acceleration_;
-  if (hold != Hold::nothing && begin(hold, edges) && hold == Hold::push) {
+  if (hold != Hold::nothing && begin(hold, edges, press_) && hold == Hold::push) {
     target_ = target;
     at_ = at;
     velocity_ = velocity;
@@ -367,6 +368,7 @@ void Core::show(Display& display) {
   simulation.held_dofs(display.held);
   simulation.active_tractions(display.tractions);
   display.hand.hold = hold_;
+  display.hand.press = press_;
   display.hand.edges = edges_;
   display.hand.traction = display.hand.displacement = display.hand.force = {};
   if (!edges_.empty() && !diverged_) {

@@ -39,8 +39,9 @@ class Core {
   const rheo::Scene& scene() const { return *scene_; }
   double rate() const { return settings_.rate; }
 
-  // Takes hold of edges; lets go of what it had. False: nothing there can be held.
-  bool begin(Hold hold, const std::vector<rheo::Edge>& edges);
+  // Takes hold of edges; lets go of what it had. False: nothing there can be held. press: shown with it, so
+  // that whoever asked knows that this is it.
+  bool begin(Hold hold, const std::vector<rheo::Edge>& edges, std::int64_t press = 0);
   // Where to: a traction [Pa] or a displacement since the grab [m]. pace: simulated seconds a second of the
   // user's.
   void aim(rheo::Vec2 target, double pace);
@@ -86,6 +87,7 @@ class Core {
   std::int64_t steps_before_ = 0;  // of earlier simulations
 
   Hold hold_ = Hold::nothing;
+  std::int64_t press_ = 0;
   int handle_ = 0;
   std::vector<rheo::Edge> edges_;
   rheo::Vec2 target_, at_, velocity_, acceleration_;

@@ -23,6 +23,7 @@ enum class SessionState { nothing_yet, whole, parameters_changed, too_long };
 
 struct HandDisplay {
   Hold hold = Hold::nothing;
+  std::int64_t press = 0;  // the number that it was begun with
   std::vector<rheo::Edge> edges;
   rheo::Vec2 traction;      // on them now [Pa]
   rheo::Vec2 displacement;  // mean over their nodes [m]

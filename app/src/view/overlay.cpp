@@ -38,8 +38,10 @@ Wordings beyond_linear(const rheo::LinearityReport& report) {
     return {many + ": beyond what a linear model means", many};
   }
   if (report.strain > rheo::strain_limit)
-    return {fmt::format("strain {:.0f} %: beyond {:.0f} % a linear model loses its meaning",
-                        100.0 * report.strain, 100.0 * rheo::strain_limit),
+    // Not "10 %, beyond 10 %".
+    return {fmt::format("strain {:.{}f} %: beyond {:.0f} % a linear model loses its meaning",
+                        100.0 * report.strain, report.strain < 2.0 * rheo::strain_limit ? 1 : 0,
+                        100.0 * rheo::strain_limit),
             fmt::format("strain {:.0f} %: not linear", 100.0 * report.strain)};
   if (report.rotation > rheo::rotation_limit)
     return {fmt::format("rotation {:.0f} degrees: beyond {:.0f} a linear model swells",
@@ -115,7 +117,7 @@ void Ui::draw_overlay() {
 
   // A push is shown as what it is, at the scale of the hand's strength, and not before the physics has it; a
   // grab by where the hand is.
-  if (dragging_ && held) {
+  if (dragging_ && held && d.hand.press == press_) {
     const bool push = d.hand.hold == Hold::push;
     const rheo::Vec2 from = place_of(grip_, d.positions), p = d.hand.traction;
     const rheo::Vec2 to =

@@ -179,6 +179,7 @@ class Ui {
   std::vector<rheo::Edge> hovered_;
   Grip grip_;
   bool dragging_ = false;
+  std::int64_t press_ = 0;  // counts them
   rheo::Vec2 drag_from_, drag_to_;
   rheo::Vec2 aimed_;
   bool panning_ = false;

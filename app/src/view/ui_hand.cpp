@@ -35,7 +35,8 @@ void Ui::use_hand() {
     usual_push_ = default_push(*base_, pieces_, grip_.edge);
     drag_from_ = drag_to_ = {x, y};
     aimed_ = {};
-    physics_.post([hold = mode_, edges = hovered_](Core& core) { core.begin(hold, edges); });
+    physics_.post(
+        [hold = mode_, edges = hovered_, press = ++press_](Core& core) { core.begin(hold, edges, press); });
     physics_.aim({});
   }
   if (dragging_ && !io.MouseDown[0]) end_hand();
