@@ -99,10 +99,19 @@ bool is_general(const Scene& scene) {
   return !scene.constraints.empty() || scene.time.constraints == ConstraintMethod::baumgarte;
 }
 
+#ifdef RHEO_SANITIZE_ADDRESS
+constexpr bool both_masses = false;  // ten times as slow: a scene has one or the other
+#else
+constexpr bool both_masses = true;
+#endif
+
 std::vector<Case> all_cases() {
   std::vector<Case> cases;
   for (const Mass mass : {Mass::lumped, Mass::consistent}) {
+    int number = 0;
     for (const Case& each : scenes(mass)) {
+      const bool is_turn = number++ % 2 == (mass == Mass::lumped ? 0 : 1) || each.name.starts_with("caught");
+      if (!is_turn && !both_masses) continue;
       cases.push_back(with(each, IntegratorKind::rk4, "rk4"));
       cases.push_back(with(each, IntegratorKind::implicit, "implicit"));
       if (!is_general(each.scene)) cases.push_back(with(each, IntegratorKind::exponential, "exponential"));
