@@ -11,6 +11,7 @@ cd "$top" || exit 1
 # shellcheck disable=SC2086  # words are meant
 install_missing $build_packages $draw_packages $test_packages || exit 1
 
+export TSAN_OPTIONS="suppressions=$top/tests/support/threads.supp"
 [ $# -gt 0 ] || set -- release asan
 summary=
 failed=0
