@@ -155,6 +155,20 @@ TEST(Rest, ComesUnderGeneralConstraintsToo) {
   }
 }
 
+TEST(Rest, EndsWhereAMoveBeginsOrAHoldLetsGo) {
+  for (const Mass mass : {Mass::lumped, Mass::consistent}) {
+    Scene moved = springy_block(mass);
+    moved.tractions[0].window = {0.0, 30.0};
+    moved.time.step = 8e-4;
+    Scene let_go = moved;
+    moved.moves.push_back(
+        {{9}, Axis::x, {15.0, 17.0}, {{15.0, {}, {}}, {16.0, {0.05, 0.0}, {}}}, Profile::smooth, "pinch"});
+    expect_rest_within(2e-9, moved);
+    let_go.fixes.push_back({{9}, Axis::both, {0.0, 15.0}, "grip"});
+    expect_rest_within(2e-9, let_go);
+  }
+}
+
 TEST(Rest, ComesUnderLoadsByStepsOfAnyLength) {
   for (const Mass mass : {Mass::lumped, Mass::consistent}) {
     Scene scene = springy_block(mass);

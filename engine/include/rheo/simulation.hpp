@@ -101,10 +101,10 @@ struct Snapshot {
 // Ways to the same rheological force.
 
 enum class Kernel {
-  automatic,  // edge where the scene allows it, else csr
+  automatic,  // the fastest that the scene allows: edge, element, csr
   csr,        // assembled matrices: every scene; the reference
-  edge,       // by edges, vectorised: lumped mass, fixed and moved nodes eliminated
-  element     // by triangles, vectorised: where edge goes
+  edge,    // by edges, vectorised: lumped mass, fixed and moved nodes eliminated, one material and thickness
+  element  // by triangles, vectorised: lumped mass, fixed and moved nodes eliminated
 };
 
 struct SimulationOptions {
