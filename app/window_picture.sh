@@ -9,7 +9,10 @@ folder=$(mktemp -d)
 xvfb=
 program=
 finish() {
-  [ -z "$program" ] || kill "$program" 2>/dev/null || true
+  if [ -n "$program" ]; then # before its display
+    kill "$program" 2>/dev/null || true
+    wait "$program" 2>/dev/null || true
+  fi
   [ -z "$xvfb" ] || kill "$xvfb" 2>/dev/null || true
   rm -rf "$folder"
 }
@@ -19,7 +22,7 @@ xvfb=$!
 until [ -s "$folder/display" ]; do sleep 0.1; done
 DISPLAY=:$(cat "$folder/display")
 export DISPLAY
-"$rheo" view "$top/app/scenes/liver.toml" -o "$folder/saved" >/dev/null &
+"$rheo" view "$top/app/scenes/liver.toml" -o "$folder/saved" >/dev/null 2>&1 &
 program=$!
 window=
 until [ -n "$window" ]; do
