@@ -314,6 +314,10 @@ TEST(ViewUi, NothingThatIsWrittenOverThePictureLiesOnOtherWords) {
     EXPECT_GE(plates.size(), 3u) << size;
     const render::PictureArea body = user.ui.picture().mesh_picture().body_area();
     const auto x = static_cast<float>(user.ui.picture_area()[0]);
+    if (user.says("push ")) {  // beside the arrows' value, which the picture writes
+      for (const render::TextBox& box : user.ui.picture().mesh_picture().texts())
+        EXPECT_TRUE(apart(plates.back(), {{x + box.x0, box.y0}, {x + box.x1, box.y1}})) << size << box.text;
+    }
     for (std::size_t i = 0; i < plates.size(); ++i) {
       EXPECT_GE(plates[i].low.x, x);
       EXPECT_LE(plates[i].high.x, x + body.x1) << size << ": over the colour bar";

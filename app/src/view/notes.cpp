@@ -18,7 +18,7 @@ Notes::Notes(ImDrawList& list, const Area& room, float text)
       text_(text),
       rim_x_(0.4f * text),
       rim_y_(0.2f * text),
-      width_(room.high.x - room.low.x - 2.0f * rim_x_),
+      width_(std::floor(room.high.x - room.low.x - 2.0f * rim_x_)),  // lines are measured in whole pixels
       next_(room.high.y) {}
 
 ImVec2 Notes::size_of(const std::string& words) const {

@@ -123,6 +123,8 @@ void Ui::draw_overlay() {
     const rheo::Vec2 to =
         push ? rheo::Vec2{from.x + p.x / push_gain(), from.y + p.y / push_gain()} : drag_to_;
     draw_arrow(list, pixel(from), pixel(to), colors.force.ink, s);
+    for (const render::TextBox& box : picture_.mesh_picture().texts())
+      notes.keep_clear_of({{x0 + box.x0, y0 + box.y0}, {x0 + box.x1, y0 + box.y1}});
     const std::string newton = with_unit(std::hypot(d.hand.force.x, d.hand.force.y), "N");
     const char* const paused = is_running() ? "" : ", paused";
     note(notes.beside(
