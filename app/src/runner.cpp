@@ -129,6 +129,7 @@ Run::Run(const Options& options, rheo::Scene scene, RunReport report, Progress& 
       simulation_(build(std::move(scene))),
       sequence_(open_sequence(simulation_.scene(), options, seconds_)),
       folder_(options.folder, replace_of(options)),
+      signals_(options.quiet ? StopSignals::Answer::none : StopSignals::Answer::at_terminal),
       records_(simulation_.scene(), folder_, options, progress),
       checkpoint_(folder_.path() / checkpoint_name, options.checkpoint_seconds, identity_) {
   if (sequence_) report_.renderer = sequence_->description();
@@ -223,9 +224,11 @@ bool Run::draw() {
                                         name_of(scene.picture.color)));
     progress_.line("note: " + report_.notes.back());
   }
-  for (const std::string& note : notes_on_sheet_times(scene)) {
-    report_.notes.push_back(note);
-    progress_.line("note: " + note);
+  if (!options_.sheet && recorder.count() > 0) {
+    for (const std::string& note : notes_on_sheet_times(scene, recorder.count())) {
+      report_.notes.push_back(note);
+      progress_.line("note: " + note);
+    }
   }
   // Frames that are there are whole and as they would be drawn again.
   const auto is_there = [&](std::int64_t k) { return cut_ && folder_.has_own(frame_name(k)); };

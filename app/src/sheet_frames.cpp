@@ -103,18 +103,23 @@ std::vector<std::int64_t> frames_at(const std::vector<double>& times, std::int64
   return frames;
 }
 
-std::vector<std::string> notes_on_sheet_times(const rheo::Scene& scene) {
+std::vector<std::string> notes_on_sheet_times(const rheo::Scene& scene, std::int64_t outputs) {
   const rheo::TimeSettings& time = scene.time;
-  const std::int64_t outputs = rheo::output_count(time);
   std::vector<std::string> notes;
+  std::int64_t before = -1;
   for (const double t : scene.picture.sheet) {
     const std::int64_t k = std::llround(t * time.frame_rate);
     const double shown = rheo::output_time(time, std::min(k, outputs - 1));
     if (k >= outputs)
-      notes.push_back(fmt::format("the sheet leaves out t = {:g} s: outputs end at {:g} s", t, shown));
-    else if (std::abs(shown - t) > 1e-9 * time.duration)
       notes.push_back(
-          fmt::format("the sheet shows t = {:g} s for {:g} s, which is between outputs", shown, t));
+          fmt::format("no shape of the sheet is of t = {:.6g} s: outputs end at {:.6g} s", t, shown));
+    else if (k == before)
+      notes.push_back(
+          fmt::format("the sheet shows {:.6g} s once: the output nearest to t = {:.6g} s too", shown, t));
+    else if (std::abs(shown - t) * time.frame_rate > 1e-3)
+      notes.push_back(
+          fmt::format("the sheet shows t = {:.6g} s for {:.6g} s, which is between outputs", shown, t));
+    before = k;
   }
   return notes;
 }

@@ -24,7 +24,7 @@ std::vector<std::int64_t> sheet_frames(std::int64_t outputs, double frame_rate,
 std::vector<std::int64_t> frames_at(const std::vector<double>& times, std::int64_t outputs,
                                     double frame_rate);
 
-// What becomes of the scene's own sheet times that no output has.
-std::vector<std::string> notes_on_sheet_times(const rheo::Scene& scene);
+// What becomes of the scene's own sheet times that none of the first `outputs` outputs has.
+std::vector<std::string> notes_on_sheet_times(const rheo::Scene& scene, std::int64_t outputs);
 
 }  // namespace app

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include <cerrno>
+
 namespace app {
 namespace {
 
@@ -13,8 +15,9 @@ void note(int signal) {
   noted = signal;
   if (says_so == 0) return;
   static constexpr char text[] = "\nstops after the output in hand; the same once more ends it at once\n";
-  // (Where it cannot be written, nobody waits for it.)
+  const int error = errno;  // of the call that was interrupted
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
+  errno = error;
 }
 
 // What ignores a signal (nohup, a shell's background job) goes on doing so.
@@ -29,9 +32,9 @@ void install(int signal, struct sigaction& before) {
 
 }  // namespace
 
-StopSignals::StopSignals() {
+StopSignals::StopSignals(Answer answer) {
   noted = 0;
-  says_so = isatty(STDERR_FILENO) != 0 ? 1 : 0;
+  says_so = answer == Answer::at_terminal && isatty(STDERR_FILENO) != 0 ? 1 : 0;
   install(SIGINT, interrupt_before_);
   install(SIGTERM, terminate_before_);
 }

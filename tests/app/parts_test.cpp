@@ -47,12 +47,15 @@ TEST(SheetFrames, OfTimesThatNoOutputHasAreTold) {
   scene.time.duration = 1.25;
   scene.time.frame_rate = 10;
   scene.picture.sheet = {0.0, 0.26, 0.5, 1.2};
-  EXPECT_THAT(app::notes_on_sheet_times(scene),
+  EXPECT_THAT(app::notes_on_sheet_times(scene, 13),
               ElementsAre("the sheet shows t = 0.3 s for 0.26 s, which is between outputs"));
-  scene.time.duration = 1.15;
-  EXPECT_THAT(app::notes_on_sheet_times(scene),
-              ElementsAre("the sheet shows t = 0.3 s for 0.26 s, which is between outputs",
-                          "the sheet leaves out t = 1.2 s: outputs end at 1.1 s"));
+  scene.picture.sheet = {0.0, 0.3, 0.33, 1.2};
+  EXPECT_THAT(app::notes_on_sheet_times(scene, 12),  // as where a run diverges
+              ElementsAre("the sheet shows 0.3 s once: the output nearest to t = 0.33 s too",
+                          "no shape of the sheet is of t = 1.2 s: outputs end at 1.1 s"));
+  scene.time.frame_rate = 60;
+  scene.picture.sheet = {0.0166667, 0.5};
+  EXPECT_TRUE(app::notes_on_sheet_times(scene, 75).empty());
 }
 
 TEST(SheetFrames, AreFewerInSmallPicturesUnlessANumberIsWanted) {

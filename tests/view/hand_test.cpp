@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "rheo/io/scene_file.hpp"
 #include "view/core.hpp"
 #include "view_scene.hpp"

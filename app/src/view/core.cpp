@@ -367,6 +367,7 @@ void Core::show(Display& display) {
   }
   simulation.held_dofs(display.held);
   simulation.active_tractions(display.tractions);
+  display.diverged = diverged_;
   display.hand.hold = hold_;
   display.hand.press = press_;
   display.hand.edges = edges_;

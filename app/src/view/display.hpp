@@ -56,6 +56,7 @@ struct Display {
 
   bool running = false;
   bool resting = false;           // nothing moves and nothing acts: no steps
+  bool diverged = false;          // no tick until it is set back
   double speed_wanted = 1.0;      // simulated seconds a second
   double real_time_factor = 1.0;  // what of it is reached, over the last second
   SessionState session = SessionState::nothing_yet;

@@ -8,11 +8,11 @@ namespace app::view {
 namespace {
 
 // Of Xlib.h, whose package this needs no more than the library itself: GLFW has opened that.
-struct Display;
-using ErrorHandler = int (*)(Display*);
-using ExitHandler = void (*)(Display*, void*);
+struct XDisplay;
+using ErrorHandler = int (*)(XDisplay*);
+using ExitHandler = void (*)(XDisplay*, void*);
 using SetErrorHandler = ErrorHandler (*)(ErrorHandler);
-using SetExitHandler = void (*)(Display*, ExitHandler, void*);
+using SetExitHandler = void (*)(XDisplay*, ExitHandler, void*);
 
 template <class Function>
 Function find(void* library, const char* name) {
@@ -25,15 +25,15 @@ DisplayLoss::DisplayLoss(std::function<void()> lost) : lost_(std::move(lost)) {
   constexpr int only_if_open = RTLD_NOW | RTLD_NOLOAD;
   void* const glfw = dlopen("libglfw.so.3", only_if_open);
   void* const xlib = dlopen("libX11.so.6", only_if_open);
-  const auto x11_display = find<Display* (*)()>(glfw, "glfwGetX11Display");
+  const auto x11_display = find<XDisplay* (*)()>(glfw, "glfwGetX11Display");
   const auto set_error_handler = find<SetErrorHandler>(xlib, "XSetIOErrorHandler");
   const auto set_exit_handler = find<SetExitHandler>(xlib, "XSetIOErrorExitHandler");
   if (!x11_display || !set_error_handler || !set_exit_handler) return;
-  Display* const display = x11_display();
+  XDisplay* const display = x11_display();
   if (display == nullptr) return;
-  set_error_handler([](Display*) { return 0; });  // in silence
+  set_error_handler([](XDisplay*) { return 0; });  // in silence
   set_exit_handler(
-      display, [](Display*, void* self) { static_cast<DisplayLoss*>(self)->lost_(); }, this);
+      display, [](XDisplay*, void* self) { static_cast<DisplayLoss*>(self)->lost_(); }, this);
   undo_ = [=] {
     set_exit_handler(display, nullptr, nullptr);
     set_error_handler(nullptr);

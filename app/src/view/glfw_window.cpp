@@ -139,7 +139,11 @@ void GlfwWindow::collect(double at_most) {
     return;
   }
   waiting_ = true;
-  glfw().WaitEventsTimeout(at_most);
+  // What came before it could wait is not slept over.
+  if (woken_.exchange(false))
+    glfw().PollEvents();
+  else
+    glfw().WaitEventsTimeout(at_most);
   waiting_ = false;
 }
 
@@ -148,10 +152,12 @@ void GlfwWindow::set_title(const std::string& title) {
 }
 
 void GlfwWindow::wake() {
+  woken_ = true;
   if (waiting_.exchange(false)) glfw().PostEmptyEvent();
 }
 
 std::vector<Input> GlfwWindow::inputs(double seconds) {
+  woken_ = false;
   int width = 0, height = 0;
   glfw().GetFramebufferSize(window_, &width, &height);
   return events_.take(std::max(width, 1), std::max(height, 1), seconds);

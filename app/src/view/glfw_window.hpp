@@ -55,6 +55,7 @@ class GlfwWindow {
   float scale_ = 1.0f;
   double period_ = 1.0 / 60.0;
   std::atomic<bool> waiting_{false};
+  std::atomic<bool> woken_{false};  // since inputs were taken
   InputQueue events_;
 };
 

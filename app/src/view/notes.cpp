@@ -76,9 +76,12 @@ std::string Notes::stack(std::span<const std::string> wordings, const NoteColors
   if (words.empty()) return {};
   const ImVec2 size = size_of(words);
   ImVec2 corner{room_.low.x, next_ - size.y};
-  for (const Area& other : taken_)  // above a name of the picture
-    if (touch({corner, {corner.x + size.x, corner.y + size.y}}, other) && other.low.y - size.y >= room_.low.y)
-      corner.y = std::min(corner.y, other.low.y - size.y);
+  // Above the picture's names; what is raised above one may meet another.
+  for (std::size_t k = 0; k < taken_.size(); ++k)
+    for (const Area& other : taken_)
+      if (touch({corner, {corner.x + size.x, corner.y + size.y}}, other) &&
+          other.low.y - size.y >= room_.low.y)
+        corner.y = std::min(corner.y, other.low.y - size.y);
   draw(corner, size, words, colors);
   next_ = corner.y - 0.3f * text_;
   return words;

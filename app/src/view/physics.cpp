@@ -93,6 +93,12 @@ void Physics::step(int ticks) {
   wake_.notify_one();
 }
 
+void Physics::forget_steps() {
+  const std::lock_guard lock(mutex_);
+  asked_ticks_ = 0;
+  forget_ticks_ = true;
+}
+
 void Physics::anchor_now() {
   anchor_ = Clock::now();
   anchored_ticks_ = 0;
@@ -120,6 +126,7 @@ bool Physics::take_commands() {
     run_.reset();
     turn_ = turned_ = false;
     set_speed_.reset();
+    if (std::exchange(forget_ticks_, false)) owed_ticks_ = 0;
     owed_ticks_ += std::exchange(asked_ticks_, 0);
   }
   try {

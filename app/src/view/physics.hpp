@@ -44,6 +44,7 @@ class Physics {
   void set_speed(double speed);
   // So many ticks now, whether running or not; a recording asks for each of its frames that way.
   void step(int ticks);
+  void forget_steps();  // those that are still owed: before another body or another beginning
 
   // The newest; stays as it is until the next call.
   const Display& newest() { return displays_.newest(); }
@@ -71,6 +72,7 @@ class Physics {
   bool turn_ = false, turned_ = false;  // running into paused or back, after run_; whether that was asked for
   std::optional<double> set_speed_;
   int asked_ticks_ = 0;
+  bool forget_ticks_ = false;
   bool quit_ = false;
 
   // The thread's own.

@@ -181,6 +181,7 @@ void Ui::frame(std::span<const Input> inputs) {
             frames_since_input_ < settling_frames || (dragging_ && d.running);
   const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   frame_seconds_.push_back(took);
+  ++frame_count_;
   if (frame_seconds_.size() > most_times) frame_seconds_.pop_front();
 }
 

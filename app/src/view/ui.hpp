@@ -73,7 +73,8 @@ class Ui {
   Picture& picture() { return picture_; }
   // Where the picture lies: x, y, width, height.
   const std::array<int, 4>& picture_area() const { return area_; }
-  const std::deque<double>& frame_seconds() const { return frame_seconds_; }
+  const std::deque<double>& frame_seconds() const { return frame_seconds_; }  // of the last ones
+  std::int64_t frame_count() const { return frame_count_; }
   // What was written in the last frame by the panels, line by line, and where widgets lie: for tests.
   const std::vector<Widgets::Seen>& widgets() const { return widgets_.seen(); }
   const std::vector<std::string>& labels() const { return labels_; }
@@ -194,6 +195,7 @@ class Ui {
 
   FrameTimes frame_times_;
   std::deque<double> frame_seconds_;
+  std::int64_t frame_count_ = 0;
   double busy_before_ = 0.0;
   std::int64_t steps_before_ = 0;
 

@@ -51,6 +51,7 @@ void Ui::set_speed(double speed) {
 
 void Ui::load(const std::filesystem::path& file) {
   end_hand();
+  physics_.forget_steps();
   say(fmt::format("loading {}", file.string()));
   physics_.post([read = settings_.read, file](Core& core) {
     try {
@@ -184,6 +185,7 @@ void Ui::act(Action action) {
 
 void Ui::reset() {
   end_hand();
+  physics_.forget_steps();
   physics_.post([](Core& core) { core.reset(); });
 }
 

@@ -32,7 +32,7 @@ void Ui::use_hand() {
   if (inside && io.MouseDoubleClicked[0] && hovered_.empty()) picture_.fit();
   if (inside && io.MouseClicked[0] && !hovered_.empty() && !dragging_) {
     dragging_ = true;
-    usual_push_ = default_push(*base_, pieces_, grip_.edge);
+    usual_push_ = default_push(*display_->scene, pieces_, grip_.edge);
     drag_from_ = drag_to_ = {x, y};
     aimed_ = {};
     physics_.post(

@@ -42,6 +42,10 @@ void Ui::end_recording(std::string why) {
 void Ui::record() {
   if (!recording_.is_on()) return;
   const Display& d = *display_;
+  if (d.diverged) {
+    recording_runs_ = false;
+    return end_recording(fmt::format("{}; {}", d.message, recording_.stop()));
+  }
   if (recorded_ticks_ < 0 && d.running) return;            // not yet paused
   if (recorded_ticks_ < 0 || d.ticks < recorded_ticks_) {  // begun, or set back
     asked_ticks_ = d.ticks;

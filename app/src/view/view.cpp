@@ -39,8 +39,8 @@ void print_summary(const view::Ui& ui, Clock::time_point start) {
   fmt::print(
       "{} frames in {:.1f} s, median {:.2f} ms, 99th percentile {:.2f} ms a frame; {} steps to t = {:.3f} "
       "s\n",
-      ui.frame_seconds().size(), seconds_since(start), 1e3 * frames.median, 1e3 * frames.high,
-      ui.shown().steps, ui.shown().t);
+      ui.frame_count(), seconds_since(start), 1e3 * frames.median, 1e3 * frames.high, ui.shown().steps,
+      ui.shown().t);
 }
 
 // Whoever finds out that the display is gone waits for a frame that is being drawn, at most so long.
@@ -102,14 +102,19 @@ void view_scene(const Options& options) {
   signals.start([&window] { window->wake(); });
   const Clock::time_point start = Clock::now();
   DrawingMutex drawing;
+  bool over = false;  // guarded by drawing: the summary is the other thread's
   const view::DisplayLoss loss([&] {
-    if (drawing.try_lock_for(patience)) {
+    if (drawing.try_lock_for(patience) && !over) {
       ui->finish_files();
       if (!options.quiet) print_summary(*ui, start);
     }
     end_at_once(Failure(ExitCode::file, "view: the display is gone"));
   });
   show(*window, *ui, signals, drawing, options.close_after);
+  {
+    const std::lock_guard lock(drawing);
+    over = true;
+  }
   if (!options.quiet) print_summary(*ui, start);
   if (const int signal = signals.asked())
     throw Failure(signal == SIGINT ? ExitCode::interrupted : ExitCode::terminated,
