@@ -27,7 +27,7 @@ using testing::StartsWith;
 using Strings = std::vector<std::string>;
 
 #ifdef RHEO_SANITIZE_ADDRESS
-constexpr double run_length = 0.3, held_length = 0.6;
+constexpr double run_length = 0.3, held_length = 3.0;
 #else
 constexpr double run_length = 1.0, held_length = 10.0;  // held at some tenth of it on a quick machine
 #endif
