@@ -3,10 +3,11 @@
 
 extern "C" {
 
-// LLVM's OpenMP runtime keeps its threads' memory to the end.
+// LLVM's OpenMP runtime keeps its threads' memory to the end, graphics drivers theirs.
 const char* __lsan_default_suppressions();
 const char* __lsan_default_suppressions() {
-  return "leak:libomp.so\n";
+  return "leak:libomp.so\nleak:libOSMesa.so\nleak:libEGL.so\nleak:libEGL_mesa.so\nleak:libgallium\n"
+         "leak:swrast_dri.so\nleak:libLLVM\nleak:libGLdispatch.so\n";
 }
 
 // Mesa's own threads, of a driver that is not compiled with the sanitizer.
