@@ -208,7 +208,8 @@ OutputFolder::OutputFolder(fs::path folder, Replace replace) : folder_(std::move
         refuse_folder(path);
   std::vector<std::string> listed = earlier.value_or(EarlierRun{}).files;
   // The list goes last: what is left of an interrupted removal is still known.
-  std::stable_partition(listed.begin(), listed.end(), [](const std::string& name) { return name != "run.json"; });
+  std::stable_partition(listed.begin(), listed.end(),
+                        [](const std::string& name) { return name != "run.json"; });
   stale_ = leftovers_in(folder_);
   stale_.insert(stale_.end(), listed.begin(), listed.end());
 }
