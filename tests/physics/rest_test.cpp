@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "rheo/live.hpp"
 #include "rheo/simulation.hpp"
 #include "support/exact.hpp"
 #include "support/scenes.hpp"
@@ -53,6 +54,46 @@ TEST(Rest, IsSkippedAndWokenExactly) {
       EXPECT_NEAR(watched.w_mu()[i], simulation.w_mu()[i], 1e-12);
     }
   }
+}
+
+// A hand pushes, and later grabs, a body at rest: against matrix exponentials of the session, in which nothing rests.
+TEST(Rest, AHandWakesExactly) {
+  Scene scene = pulled_three_times(Mass::lumped);
+  scene.tractions.resize(1);
+  scene.time.step = 5e-4;
+  LiveSettings settings;
+  settings.rate = 50.0;
+  settings.record = 5000;
+  settings.handles.push_back({"hand", {}, scene.mesh.edge_groups.at("right")});
+  Live live(scene, settings);
+  const auto tick_until = [&](double t) {
+    while (live.time() < t - 1e-9) ASSERT_FALSE(live.tick());
+  };
+  const auto at_rest = [&] { return live.simulation().counters().steps_at_rest; };
+  tick_until(28.0);
+  std::int64_t rested = at_rest();
+  EXPECT_GT(rested, 0);
+  ASSERT_TRUE(live.press(0, {3.0, 1.0}));
+  tick_until(28.2);
+  EXPECT_EQ(at_rest(), rested) << "awake at once";
+  ASSERT_TRUE(live.push(0, {}));
+  tick_until(56.0);
+  EXPECT_GT(at_rest(), rested);
+  rested = at_rest();
+  ASSERT_GT(live.grab(0), 0);
+  ASSERT_TRUE(live.drag(0, {0.01, -0.02}));
+  tick_until(56.1);
+  EXPECT_EQ(at_rest(), rested) << "awake at once";
+  live.release(0);
+  tick_until(57.0);
+
+  const Simulation& s = live.simulation();
+  const auto vector = [](std::span<const double> x) {
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size())));
+  };
+  const ExactState state{live.time(), vector(s.u()), vector(s.v()), vector(s.w_lambda()), vector(s.w_mu())};
+  // RK4's own error (IsSkippedAndWokenExactly), by a step half as long.
+  EXPECT_LT(run_error(ExactSolution(live.session()).at({live.time()}), {state}), 2e-5 / 16);
 }
 
 TEST(Rest, NothingIsDoneBeforeTheFirstLoad) {
