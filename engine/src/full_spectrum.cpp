@@ -76,9 +76,10 @@ std::vector<std::complex<double>> full_spectrum(const Model& model, const Constr
   const auto n = static_cast<Eigen::Index>(free.size());
   // (No constraint depends on others, or the solver would have refused it.)
   const Eigen::Index directions = n - static_cast<Eigen::Index>(solver.columns().size());
+  if (directions <= 0) return {};
   Eigen::Index expected = directions;
   for (const SharedRelaxation& each : relaxations) expected += expected_rows(model, each.moduli, directions);
-  if (free.empty() || expected > most) return {};
+  if (expected > most) return {};
 
   std::vector<Eigen::Index> place(static_cast<std::size_t>(size), -1);
   for (Eigen::Index i = 0; i < n; ++i) place[static_cast<std::size_t>(free[i])] = i;

@@ -147,6 +147,22 @@ TEST(StableStep, UndampedBodyHasNoStableEulerStep) {
   }
 }
 
+// As many constraints as ways to move: nothing is left that could have eigenvalues, but for what relaxes.
+TEST(StableStep, ABodyThatConstraintsHoldWhollyHasTheStepsOfItsRates) {
+  Scene scene = paper_beam(Mass::lumped);
+  scene.fixes.clear();
+  for (int node = 0; node < scene.mesh.node_count(); ++node)
+    for (const Axis axis : {Axis::x, Axis::y})
+      scene.constraints.push_back({{{node, axis, 1.0}}, 0.0, "grip"});
+  scene.time.baumgarte = 0.0;
+  const double rate = std::max(scene.material.lambda_rate(), scene.material.mu_rate());
+  for (const IntegratorKind kind : {IntegratorKind::rk4, IntegratorKind::euler}) {
+    const double step = predicted(scene, kind), truth = stable_step_of(-rate, kind);
+    EXPECT_LE(step, truth);
+    EXPECT_GE(step, 0.95 * truth);
+  }
+}
+
 // Too large for all eigenvalues: the limit is a bound, is called so, and holds.
 TEST(StableStep, EulersLimitOnALargerMeshIsASafeBound) {
   Scene scene = paper_beam(Mass::lumped);
