@@ -14,15 +14,12 @@
 #include "rheo/simulation.hpp"
 #include "support/event_scenes.hpp"
 #include "support/exact.hpp"
+#include "support/sanitized.hpp"
 
 namespace rheo::test {
 namespace {
 
-#if defined(RHEO_SANITIZE_ADDRESS) || defined(RHEO_SANITIZE_THREAD)
-constexpr int stride = 5;
-#else
-constexpr int stride = 1;
-#endif
+constexpr int stride = is_sanitized ? 5 : 1;
 
 class Draw {
  public:

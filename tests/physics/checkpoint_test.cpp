@@ -13,6 +13,7 @@
 
 #include "support/event_scenes.hpp"
 #include "support/live_scenes.hpp"
+#include "support/sanitized.hpp"
 #include "support/whole_materials.hpp"
 
 namespace rheo::test {
@@ -99,11 +100,7 @@ bool is_general(const Scene& scene) {
   return !scene.constraints.empty() || scene.time.constraints == ConstraintMethod::baumgarte;
 }
 
-#ifdef RHEO_SANITIZE_ADDRESS
-constexpr bool both_masses = false;  // ten times as slow: a scene has one or the other
-#else
-constexpr bool both_masses = true;
-#endif
+constexpr bool both_masses = !is_sanitized;  // else a scene has one or the other
 
 std::vector<Case> all_cases() {
   std::vector<Case> cases;

@@ -11,6 +11,7 @@
 #include "rheo/live.hpp"
 #include "rheo/simulation.hpp"
 #include "support/exact.hpp"
+#include "support/sanitized.hpp"
 #include "support/scenes.hpp"
 #include "support/whole_materials.hpp"
 
@@ -77,11 +78,7 @@ std::vector<ExactState> run(const Scene& scene, Kernel kernel) {
   return states;
 }
 
-#ifdef RHEO_SANITIZE_ADDRESS
-constexpr int exact_scenes = 1;  // dense exponentials take twenty times as long
-#else
-constexpr int exact_scenes = 2;
-#endif
+constexpr int exact_scenes = is_sanitized ? 1 : 2;
 
 TEST(SeveralMaterials, EveryKernelAndIntegratorFollowsTheExactSolution) {
   std::mt19937 random(31);
@@ -129,11 +126,7 @@ TEST(SeveralMaterials, EveryKernelAndIntegratorFollowsTheExactSolution) {
   }
 }
 
-#ifdef RHEO_SANITIZE_ADDRESS
-constexpr int constraint_scenes = 1;  // dense exponentials take twenty times as long
-#else
-constexpr int constraint_scenes = 2;
-#endif
+constexpr int constraint_scenes = is_sanitized ? 1 : 2;
 
 TEST(SeveralMaterials, GeneralConstraintsAndBaumgarteToo) {
   std::mt19937 random(32);

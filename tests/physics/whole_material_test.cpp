@@ -11,6 +11,7 @@
 #include "rheo/live.hpp"
 #include "rheo/simulation.hpp"
 #include "support/exact.hpp"
+#include "support/sanitized.hpp"
 #include "support/scenes.hpp"
 #include "support/whole_materials.hpp"
 
@@ -39,11 +40,7 @@ Scene random_scene(std::mt19937& random, Mass mass) {
   return scene;
 }
 
-#ifdef RHEO_SANITIZE_ADDRESS
-constexpr int exact_scenes = 1, constraint_scenes = 1;  // dense exponentials take twenty times as long
-#else
-constexpr int exact_scenes = 4, constraint_scenes = 2;
-#endif
+constexpr int exact_scenes = is_sanitized ? 1 : 4, constraint_scenes = is_sanitized ? 1 : 2;
 
 TEST(WholeMaterial, EveryIntegratorFollowsTheExactSolution) {
   std::mt19937 random(1);
