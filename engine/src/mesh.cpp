@@ -278,7 +278,7 @@ double signed_area(const Mesh& mesh, int triangle) {
   return 0.5 * ((b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y));
 }
 
-int piece_count(const Mesh& mesh) {
+std::vector<int> pieces_of(const Mesh& mesh) {
   // Union by the smaller number, with paths halved.
   std::vector<int> parent(mesh.points.size());
   std::iota(parent.begin(), parent.end(), 0);
@@ -295,9 +295,15 @@ int piece_count(const Mesh& mesh) {
       parent[high] = low;
     }
   }
-  int pieces = 0;
-  for (int node = 0; node < mesh.node_count(); ++node) pieces += parent[node] == node ? 1 : 0;
-  return pieces;
+  for (int& node : parent) node = root(node);
+  return parent;
+}
+
+int piece_count(const Mesh& mesh) {
+  const std::vector<int> pieces = pieces_of(mesh);
+  int count = 0;
+  for (int node = 0; node < mesh.node_count(); ++node) count += pieces[node] == node ? 1 : 0;
+  return count;
 }
 
 std::vector<int> nodes_of(const std::vector<Edge>& edges) {

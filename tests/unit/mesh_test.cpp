@@ -41,6 +41,7 @@ TEST(Mesh, PiecesShareNoNode) {
     mesh.triangles.push_back({first + 2, first + 1, first});
   }
   EXPECT_EQ(piece_count(mesh), 3);
+  EXPECT_EQ(pieces_of(mesh), (std::vector<int>{0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8}));
   EXPECT_EQ(piece_count(rectangle({1, 1}, 30, 40)), 1);
 }
 

@@ -14,7 +14,6 @@ namespace {
 
 using app::view::default_push;
 using app::view::Display;
-using app::view::pieces_of;
 using app::view::Reach;
 using app::view::reach_at;
 
@@ -61,7 +60,7 @@ density = 1000
 }
 
 struct Shown {
-  explicit Shown(rheo::Scene scene) : pieces(pieces_of(scene.mesh)) {
+  explicit Shown(rheo::Scene scene) : pieces(rheo::pieces_of(scene.mesh)) {
     app::view::Core(std::move(scene), {}).show(display);
   }
   // 1 mm is 10 pixels, the picture's origin is the plane's.
@@ -112,15 +111,6 @@ TEST(ViewHand, PushesAsHardAsTheMaterialThereAsksFor) {
   EXPECT_NEAR(push(0.0, 0.055), 0.5 * 3000 / diagonal, 1e-6);
   EXPECT_NEAR(push(0.21, 0.025), 0.5 * 30000 / diagonal, 1e-5);
   EXPECT_NEAR(push(0.21, 0.075), 0.5 * 300000 / diagonal, 1e-4) << "the cap";
-}
-
-TEST(ViewHand, PiecesHangTogetherByTriangles) {
-  const rheo::Scene scene = two_squares();
-  const std::vector<int> pieces = pieces_of(scene.mesh);
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    EXPECT_EQ(pieces[i] == pieces[0], scene.mesh.points[i].x < 0.105) << i;
-  const std::vector<int> one = pieces_of(block().mesh);
-  EXPECT_THAT(one, testing::Each(one[0]));
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <span>
 
 namespace app::view {
@@ -21,21 +20,6 @@ const rheo::Material& material_at(const rheo::Scene& scene, const rheo::Edge& ed
 }
 
 }  // namespace
-
-std::vector<int> pieces_of(const rheo::Mesh& mesh) {
-  std::vector<int> piece(mesh.points.size());
-  std::iota(piece.begin(), piece.end(), 0);
-  // A forest: each node names another of its piece, a root itself.
-  const auto root = [&](int node) {
-    const auto at = [&](int i) -> int& { return piece[static_cast<std::size_t>(i)]; };
-    while (at(node) != node) node = at(node) = at(at(node));
-    return node;
-  };
-  for (const auto& triangle : mesh.triangles)
-    for (const int node : triangle) piece[static_cast<std::size_t>(root(node))] = root(triangle[0]);
-  for (std::size_t i = 0; i < piece.size(); ++i) piece[i] = root(static_cast<int>(i));
-  return piece;
-}
 
 rheo::Vec2 place_of(const Grip& grip, std::span<const double> positions) {
   const auto i = 2 * static_cast<std::size_t>(grip.edge[0]), j = 2 * static_cast<std::size_t>(grip.edge[1]);

@@ -12,9 +12,6 @@
 
 namespace app::view {
 
-// Pieces of a mesh that hang together: of each node, the number of its own.
-std::vector<int> pieces_of(const rheo::Mesh& mesh);
-
 // A place on an edge, which goes with it: 0 at its first node, 1 at its second.
 struct Grip {
   rheo::Edge edge{0, 0};
@@ -27,7 +24,7 @@ struct Reach {
   Grip nearest;                   // of them, to the cursor
 };
 // Boundary edges of the nearest piece within `radius` pixels of the cursor, by the middle of the edge; else
-// the nearest one that is as near itself. At most `most`, the nearest first.
+// the nearest one that is as near itself. At most `most`, the nearest first. pieces: rheo::pieces_of().
 Reach reach_at(const Display& display, const std::vector<int>& pieces, const render::PlaneInPicture& plane,
                std::array<double, 2> cursor, double radius, std::size_t most);
 

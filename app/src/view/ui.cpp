@@ -124,7 +124,7 @@ void Ui::take_display() {
   if (d.message_number != message_seen_) say(d.message);
   if (base_body_ != d.body) {
     base_ = d.scene;
-    pieces_ = pieces_of(base_->mesh);
+    pieces_ = rheo::pieces_of(base_->mesh);
     chosen_push_.reset();
     usual_push_ = default_push(*base_, pieces_, base_->mesh.edge_groups.at("boundary").front());
     if (base_body_ >= 0) style_.color = d.scene->picture.color;

@@ -58,7 +58,10 @@ int prepare(Mesh& mesh, const std::string& where = {});
 // Half the cross product of two sides; positive when counter-clockwise. [m^2]
 double signed_area(const Mesh& mesh, int triangle);
 
-// How many pieces the triangles make that share no node.
+// Pieces of a mesh that share no node: of each node, the lowest node of its piece.
+std::vector<int> pieces_of(const Mesh& mesh);
+
+// How many there are.
 int piece_count(const Mesh& mesh);
 
 // Node numbers of some edges, each once, in rising order.
