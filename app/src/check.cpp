@@ -12,6 +12,7 @@
 
 #include "check_plots.hpp"
 #include "failure.hpp"
+#include "frame_outputs.hpp"
 #include "material_rows.hpp"
 #include "memory_need.hpp"
 #include "option_values.hpp"
@@ -206,6 +207,9 @@ void print_steps(const rheo::Simulation& simulation, rheo::IntegratorKind integr
     row("steps", "{} in {:g} s", simulation.planned_steps(), time.duration);
   }
   row("outputs", "{} at {:g} per second", rheo::output_count(time), time.frame_rate);
+  const int every = simulation.scene().picture.every;
+  row("frames", "{} with render, {}", frame_count(rheo::output_count(time), every),
+      every == 1 ? std::string("one an output") : fmt::format("one every {} outputs and the last", every));
 }
 
 struct Cost {
@@ -286,9 +290,11 @@ void print_cost(rheo::Simulation& simulation, Verdict verdict) {
         cost.seconds_per_step);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
+  const std::int64_t frames = frame_count(rheo::output_count(scene.time), scene.picture.every);
   const double per_node = scene.picture.color == rheo::ColorBy::none ? 8.0 : 12.0;
   row("memory", "{:.0f} MB; render keeps {:.3g} MB more between its passes",
-      static_cast<double>(usage.ru_maxrss) / 1024.0, outputs * per_node * scene.mesh.node_count() / 1e6);
+      static_cast<double>(usage.ru_maxrss) / 1024.0,
+      static_cast<double>(frames) * per_node * scene.mesh.node_count() / 1e6);
 }
 
 void check_loaded(const Options& options, rheo::Scene scene) {

@@ -209,6 +209,7 @@ Options read_values(const Texts& texts, const CLI::App& command) {
   if (given("--color")) options.color = color_by("--color", texts.color);
   if (given("--branch")) options.branch = whole_number("--branch", texts.branch, 0, most_branches);
   if (given("--range")) options.range = color_range("--range", texts.range);
+  if (given("--every")) options.every = whole_number("--every", texts.every, 1, rheo::most_every);
   if (given("--backend")) options.backend = draw_backend("--backend", texts.backend);
   if (given("--sheet")) options.sheet = whole_number("--sheet", texts.sheet, fewest_shapes, most_shapes);
   return options;

@@ -47,6 +47,7 @@ struct Options {
   std::optional<int> branch;
   std::optional<ColorRange> range;
   std::optional<std::array<int, 2>> size;
+  std::optional<int> every;
 
   DrawBackend backend = DrawBackend::automatic;
   int threads = 2;            // encoders of the frame sequence

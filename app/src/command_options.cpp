@@ -95,6 +95,9 @@ void add_picture_options(CLI::App& command, Texts& texts) {
               "a scene's default is 0");
   group.value("--range", texts.range, "LOW,HIGH|auto",
               "colour range in that unit, or auto, a scene's default: that of the\nwhole sequence");
+  group.value("--every", texts.every, "N",
+              "a frame every N-th output, and of the last one; tables and sheet.png have\n"
+              "all outputs; a scene's default is 1");
   group.value("--backend", texts.backend, "NAME",
               "auto, osmesa or egl; default auto: OSMesa where installed, else EGL");
   group.value("--sheet", texts.sheet, "N",

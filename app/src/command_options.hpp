@@ -15,7 +15,7 @@ inline constexpr int most_branches = 1000;
 // Option texts as they were typed; read after CLI11 has sorted them.
 struct Texts {
   std::string scene, folder, integrator, step, tolerance, accuracy, duration, frame_rate, threads;
-  std::string size, color, branch, range, backend, sheet;
+  std::string size, color, branch, range, every, backend, sheet;
   std::string kernel, csv, budget, seconds, checkpoint, from;
   std::string memory_limit, output_limit;
   bool allow_outside = false;

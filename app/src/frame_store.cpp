@@ -31,8 +31,9 @@ FrameStore::FrameStore(const std::filesystem::path& folder, std::size_t length, 
   const std::filesystem::space_info space = std::filesystem::space(folder, error);
   if (!error && bytes > static_cast<double>(space.available))
     throw Failure(ExitCode::file,
-                  fmt::format("{}: the sequence needs {:.1f} GB for its positions, {:.1f} GB are free: lower "
-                              "--frame-rate or --duration, or name a folder on another disk with -o",
+                  fmt::format("{}: the sequence needs {:.1f} GB for its positions, {:.1f} GB are free: draw "
+                              "fewer frames with --every, lower --frame-rate or --duration, or name a folder "
+                              "on another disk with -o",
                               folder.string(), bytes * 1e-9, static_cast<double>(space.available) * 1e-9));
 }
 

@@ -76,6 +76,7 @@ rheo::Scene load_scene(const Options& options) {
                       *options.branch, most, most == 1 ? "" : "es"));
     scene.picture.branch = *options.branch;
   }
+  if (options.every) scene.picture.every = *options.every;
   if (options.size) scene.picture.size = *options.size;
   if (options.range) {
     scene.picture.range_auto = options.range->automatic;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "node_scalars.hpp"
 #include "rheo/simulation.hpp"
@@ -27,12 +28,13 @@ std::size_t record_length(const rheo::Scene& scene) {
 
 }  // namespace
 
-Recorder::Recorder(const rheo::Scene& scene, const std::filesystem::path& folder)
+Recorder::Recorder(const rheo::Scene& scene, const std::filesystem::path& folder, KeptOutputs kept)
     : color_(scene.picture.color),
       branch_(scene.picture.branch),
       rest_(flat(scene.mesh.points)),
       boundary_nodes_(rheo::nodes_of(scene.mesh.edge_groups.at("boundary"))),
-      store_(folder, record_length(scene), rheo::output_count(scene.time)),
+      kept_(std::move(kept)),
+      store_(folder, record_length(scene), kept_.count()),
       record_(record_length(scene)),
       bounds_{infinite, infinite, -infinite, -infinite},
       range_{infinite, -infinite} {
@@ -42,7 +44,7 @@ Recorder::Recorder(const rheo::Scene& scene, const std::filesystem::path& folder
   }
 }
 
-void Recorder::record(rheo::Simulation& simulation, std::int64_t) {
+void Recorder::record(rheo::Simulation& simulation, std::int64_t k) {
   const std::span<const double> u = simulation.u();
   for (std::size_t i = 0; i < u.size(); ++i) record_[i] = static_cast<float>(u[i]);
   for (const int node : boundary_nodes_) {
@@ -59,7 +61,8 @@ void Recorder::record(rheo::Simulation& simulation, std::int64_t) {
     }
     color_values_ += static_cast<std::int64_t>(u.size() / 2);
   }
-  store_.append(record_);
+  pending_ = !kept_.has(k);
+  if (!pending_) store_.append(record_);
 
   RecordedLoads loads{.t = simulation.time(), .tractions = simulation.active_tractions(), .held = {}};
   std::vector<int> held = simulation.held_dofs();
@@ -68,6 +71,11 @@ void Recorder::record(rheo::Simulation& simulation, std::int64_t) {
   else
     loads.held = std::make_shared<const std::vector<int>>(std::move(held));
   loads_.push_back(std::move(loads));
+}
+
+void Recorder::end() {
+  if (pending_) store_.append(record_);
+  pending_ = false;
 }
 
 void Recorder::put(rheo::ByteWriter& out) {
@@ -89,6 +97,7 @@ void Recorder::put(rheo::ByteWriter& out) {
     if (others) out.put_list(*loads.held);
     before = loads.held.get();
   }
+  out.put_list(pending_ ? record_ : std::vector<float>());
 }
 
 void Recorder::get(rheo::ByteReader& in) {
@@ -109,11 +118,24 @@ void Recorder::get(rheo::ByteReader& in) {
       loads.held = loads_.back().held;
     loads_.push_back(std::move(loads));
   }
+  if (const auto pending = in.get_list<float>(); !pending.empty()) {
+    record_ = pending;
+    pending_ = true;
+  }
+}
+
+std::int64_t Recorder::nearest_kept(std::int64_t k) const {
+  // A run that diverged has kept its last output, planned or not.
+  const auto is_kept = [&](std::int64_t i) { return kept_.has(i) || i == count() - 1; };
+  for (std::int64_t away = 0;; ++away) {  // the first output is kept
+    if (is_kept(k - away)) return k - away;
+    if (k + away < count() && is_kept(k + away)) return k + away;
+  }
 }
 
 void Recorder::read(std::int64_t k, std::vector<double>& positions, std::vector<double>& scalar) const {
   std::vector<float> record(record_.size());
-  store_.read(k, record);
+  store_.read(kept_.below(k), record);
   positions = rest_;
   for (std::size_t i = 0; i < positions.size(); ++i) positions[i] += static_cast<double>(record[i]);
   scalar.assign(record.begin() + static_cast<std::ptrdiff_t>(positions.size()), record.end());

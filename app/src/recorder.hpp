@@ -1,8 +1,11 @@
-// Pass 1 of a sequence: what the pictures need of every output, and what they need of all outputs together:
-// the bounds of the motion and the range of the colour, so that frames compare.
+// Pass 1 of a sequence: what the pictures need of the outputs that are drawn, and what they need of all
+// outputs together: the bounds of the motion and the range of the colour, so that frames compare, and do not
+// depend on how many there are.
 //
 // Shapes   displacements n x 2, scalar n (or none), kept in float32: a mesh far from the origin loses nothing
-// by it Errors   those of FrameStore Not here drawing (sequence.hpp)
+//          by it
+// Errors   those of FrameStore
+// Not here drawing (sequence.hpp)
 #pragma once
 
 #include <array>
@@ -11,6 +14,7 @@
 #include <optional>
 #include <vector>
 
+#include "frame_outputs.hpp"
 #include "frame_store.hpp"
 #include "output_sink.hpp"
 #include "rheo/io/bytes.hpp"
@@ -27,9 +31,11 @@ struct RecordedLoads {
 
 class Recorder : public OutputSink {
  public:
-  Recorder(const rheo::Scene& scene, const std::filesystem::path& folder);
+  Recorder(const rheo::Scene& scene, const std::filesystem::path& folder, KeptOutputs kept);
 
   void record(rheo::Simulation& simulation, std::int64_t k) override;
+  // The output recorded last, where it was to be, is the last one, and kept.
+  void end();
 
   // For a run that is to go on: positions and colours are kept in the store's file, all else in the bytes.
   void put(rheo::ByteWriter& out);
@@ -38,9 +44,12 @@ class Recorder : public OutputSink {
   // What was kept goes with this object after all.
   void discard() { store_.discard(); }
 
-  std::int64_t count() const { return store_.count(); }
+  // Outputs so far.
+  std::int64_t count() const { return static_cast<std::int64_t>(loads_.size()); }
+  // The kept output nearest to output k.
+  std::int64_t nearest_kept(std::int64_t k) const;
   const RecordedLoads& loads(std::int64_t k) const { return loads_[static_cast<std::size_t>(k)]; }
-  // Fills positions (n x 2, deformed) and scalar (n; empty where nothing is coloured).
+  // Of a kept output: fills positions (n x 2, deformed) and scalar (n; empty where nothing is coloured).
   void read(std::int64_t k, std::vector<double>& positions, std::vector<double>& scalar) const;
 
   // x0, y0, x1, y1 over the boundary at rest and at all outputs.
@@ -58,9 +67,11 @@ class Recorder : public OutputSink {
   std::vector<double> scalars_;  // of the moment
   std::vector<double> rest_;     // n x 2
   std::vector<int> boundary_nodes_;
+  KeptOutputs kept_;
   FrameStore store_;
   std::vector<RecordedLoads> loads_;
-  std::vector<float> record_;
+  std::vector<float> record_;  // of the latest output
+  bool pending_ = false;       // it is not in the store
   std::array<double, 4> bounds_;
   std::array<double, 2> range_;
   std::int64_t color_values_ = 0;

@@ -1,11 +1,16 @@
 #include "records.hpp"
 
+#include "rheo/simulation.hpp"
+
 namespace app {
 
-Records::Records(const rheo::Scene& scene, OutputFolder& folder, const Options& options, Progress& progress)
+Records::Records(const rheo::Scene& scene, OutputFolder& folder, const Options& options,
+                 const std::vector<std::int64_t>& sheet, Progress& progress)
     : scene_(scene), folder_(folder), watch_(progress) {
   if (options.vtu) vtu_.emplace(folder);
-  if (options.command == Command::render) recorder_.emplace(scene, folder.path());
+  if (options.command == Command::render)
+    recorder_.emplace(scene, folder.path(),
+                      KeptOutputs(rheo::output_count(scene.time), scene.picture.every, sheet));
 }
 
 void Records::begin() {
@@ -41,6 +46,7 @@ void Records::commit() {
   history_->commit();
   folder_.made("history.csv");
   if (vtu_) vtu_->finish();
+  if (recorder_) recorder_->end();
 }
 
 }  // namespace app

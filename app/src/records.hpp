@@ -18,8 +18,9 @@ namespace app {
 
 class Records {
  public:
-  // Writes nothing yet. All must outlive this.
-  Records(const rheo::Scene& scene, OutputFolder& folder, const Options& options, Progress& progress);
+  // Writes nothing yet. All must outlive this. sheet: outputs that are drawn beside those of the frames.
+  Records(const rheo::Scene& scene, OutputFolder& folder, const Options& options,
+          const std::vector<std::int64_t>& sheet, Progress& progress);
 
   // One of these two, once the folder is ready.
   void begin();
@@ -30,7 +31,7 @@ class Records {
   void put_aside(rheo::ByteWriter& out);
   // What was put aside goes at the end after all.
   void discard();
-  // history.csv and the series' index appear.
+  // No more outputs come: history.csv and the series' index appear.
   void commit();
 
   const HistoryFile& history() const { return *history_; }

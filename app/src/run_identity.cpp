@@ -53,6 +53,7 @@ std::string run_identity(const Options& options, const rheo::Scene& scene, const
   add("--branch", std::to_string(picture.branch));
   add("--range", picture.range_auto ? "auto" : number(picture.range[0]) + "," + number(picture.range[1]));
   add("--size", fmt::format("{}x{}", picture.size[0], picture.size[1]));
+  add("--every", std::to_string(picture.every));
   add("--sheet", options.sheet ? std::to_string(*options.sheet) : "as suits the run");
   add("--backend", name_of(options.backend));
   return text;

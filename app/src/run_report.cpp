@@ -53,6 +53,7 @@ Json settings_of(const Options& options, const rheo::Simulation& simulation, con
   json["plan"] = plan_of(simulation.plan());
   json["duration"] = time.duration;
   json["frame_rate"] = time.frame_rate;
+  json["every"] = report.renderer.empty() ? Json(nullptr) : Json(simulation.scene().picture.every);
   json["threads"] = simulation.threads();
   json["encoder_threads"] = options.threads;
   json["renderer"] = report.renderer.empty() ? Json(nullptr) : Json(report.renderer);

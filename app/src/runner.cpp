@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "failure.hpp"
+#include "frame_outputs.hpp"
 #include "memory_need.hpp"
 #include "option_values.hpp"
 #include "output_folder.hpp"
@@ -31,15 +32,18 @@ namespace app {
 namespace {
 
 // All that a run may write: one that diverges leaves some of it out.
-std::vector<std::string> files_to_come(const Options& options, const rheo::TimeSettings& time) {
+std::vector<std::string> files_to_come(const Options& options, const rheo::Scene& scene) {
   std::vector<std::string> names{"history.csv", "state.csv", checkpoint_name};
-  const bool pictures = options.command == Command::render;
-  for (std::int64_t k = 0; k < rheo::output_count(time); ++k) {
-    if (options.vtu) names.push_back(vtu_name(k));
-    if (pictures) names.push_back(frame_name(k));
+  const std::int64_t outputs = rheo::output_count(scene.time);
+  if (options.vtu) {
+    for (std::int64_t k = 0; k < outputs; ++k) names.push_back(vtu_name(k));
+    names.push_back("vtu/state.pvd");
   }
-  if (options.vtu) names.push_back("vtu/state.pvd");
-  if (pictures) names.insert(names.end(), {"sheet.png", "residual.png"});
+  if (options.command == Command::render) {
+    for (std::int64_t k = 0; k < frame_count(outputs, scene.picture.every); ++k)
+      names.push_back(frame_name(k));
+    names.insert(names.end(), {"sheet.png", "residual.png"});
+  }
   return names;
 }
 
@@ -119,6 +123,11 @@ std::optional<Sequence> open_sequence(const rheo::Scene& scene, const Options& o
   return std::optional<Sequence>(std::in_place, scene.picture, options);
 }
 
+std::vector<std::int64_t> sheet_of(const std::optional<Sequence>& sequence, const rheo::Scene& scene) {
+  if (!sequence) return {};
+  return sequence->sheet_outputs(scene, rheo::output_count(scene.time));
+}
+
 // Everything that can be refused is refused here, before the folder is made or cleared.
 Run::Run(const Options& options, rheo::Scene scene, RunReport report, Progress& progress)
     : options_(options),
@@ -130,7 +139,7 @@ Run::Run(const Options& options, rheo::Scene scene, RunReport report, Progress& 
       sequence_(open_sequence(simulation_.scene(), options, seconds_)),
       folder_(options.folder, replace_of(options)),
       signals_(options.quiet ? StopSignals::Answer::none : StopSignals::Answer::at_terminal),
-      records_(simulation_.scene(), folder_, options, progress),
+      records_(simulation_.scene(), folder_, options, sheet_of(sequence_, simulation_.scene()), progress),
       checkpoint_(folder_.path() / checkpoint_name, options.checkpoint_seconds, identity_) {
   if (sequence_) report_.renderer = sequence_->description();
   if (cut_) checkpoint_.adopt();
@@ -174,7 +183,7 @@ void Run::begin_or_take_up() {
   for (std::string& note : plan_notes(simulation_, options_.simulation))
     report_.notes.push_back(std::move(note));
   for (const std::string& note : report_.notes) progress_.line("note: " + note);
-  report_.files = folder_.free_of(files_to_come(options_, scene.time));
+  report_.files = folder_.free_of(files_to_come(options_, scene));
   report_.files.push_back("run.json");
   write_report();
   if (!cut_) records_.begin();
@@ -302,7 +311,9 @@ void Run::do_all() {
   write_tables();
   if (sequence_ && !draw()) stop(*signals_.asked());
   finish();
-  summarise(simulation_.counters(), seconds_, sequence_ ? progress_made_.outputs : 0, progress_);
+  const int every = simulation_.scene().picture.every;
+  summarise(simulation_.counters(), seconds_, sequence_ ? frame_count(progress_made_.outputs, every) : 0,
+            progress_);
   list_files(folder_, progress_);
   if (report_.divergence)
     throw Failure(ExitCode::diverged, divergence_text(*report_.divergence, simulation_));

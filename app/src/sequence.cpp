@@ -10,6 +10,7 @@
 
 #include "body_labels.hpp"
 #include "flat_rows.hpp"
+#include "frame_outputs.hpp"
 #include "loaded_edges.hpp"
 #include "node_scalars.hpp"
 #include "render/context.hpp"
@@ -83,18 +84,20 @@ struct Sequence::Impl {
   bool bare = false;  // nothing to colour
   DrawCounters counters;
 
-  bool draw_frames(render::MeshPicture& picture, const Recorder& recorder, const LoadedEdges& edges,
-                   OutputFolder& folder, Progress& progress, Seconds& seconds, const DrawHooks& hooks) const {
+  bool draw_frames(render::MeshPicture& picture, const Recorder& recorder, int every,
+                   const LoadedEdges& edges, OutputFolder& folder, Progress& progress, Seconds& seconds,
+                   const DrawHooks& hooks) const {
     render::PngSequence png(threads);
     LoadedFrame frame{.bare = bare};
-    progress.begin("drawing", recorder.count());
+    const std::int64_t count = frame_count(recorder.count(), every);
+    progress.begin("drawing", count);
     std::int64_t k = 0;
-    for (; k < recorder.count() && hooks.goes_on(); ++k) {
+    for (; k < count && hooks.goes_on(); ++k) {
       if (hooks.is_there(k)) continue;
       render::Image image = png.recycle();
       {
         const Timed timed(seconds.draw);
-        frame.load(recorder, edges, k);
+        frame.load(recorder, edges, frame_output(k, recorder.count(), every));
         picture.draw(frame.view(), image);
       }
       const Timed timed(seconds.encode);
@@ -107,7 +110,14 @@ struct Sequence::Impl {
     }
     for (std::int64_t made = 0; made < k; ++made) folder.made(frame_name(made));
     progress.end();
-    return k == recorder.count();
+    return k == count;
+  }
+
+  std::vector<std::int64_t> sheet_outputs(const rheo::Scene& scene, std::int64_t outputs) const {
+    const std::vector<double>& asked = scene.picture.sheet;
+    if (!asked.empty() && !shapes) return frames_at(asked, outputs, scene.time.frame_rate);
+    return sheet_frames(outputs, scene.time.frame_rate, event_times(scene), shapes,
+                        render::sheet_room(scene.picture.size[0], scene.picture.size[1]));
   }
 
   void draw_sheet(const rheo::Scene& scene, render::MeshPicture& picture, const Recorder& recorder,
@@ -117,12 +127,11 @@ struct Sequence::Impl {
     render::Image image;
     {
       const Timed timed(seconds.draw);
-      const int room = render::sheet_room(scene.picture.size[0], scene.picture.size[1]);
-      const std::vector<double>& asked = scene.picture.sheet;
-      for (const std::int64_t k :
-           asked.empty() || shapes
-               ? sheet_frames(recorder.count(), scene.time.frame_rate, event_times(scene), shapes, room)
-               : frames_at(asked, recorder.count(), scene.time.frame_rate))
+      std::vector<std::int64_t> outputs = sheet_outputs(scene, recorder.count());
+      // All are kept, but for a run that diverged: its sheet is not the one that was planned.
+      for (std::int64_t& k : outputs) k = recorder.nearest_kept(k);
+      outputs.erase(std::unique(outputs.begin(), outputs.end()), outputs.end());
+      for (const std::int64_t k : outputs)
         frames.emplace_back(LoadedFrame{.bare = bare}).load(recorder, edges, k);
       for (const LoadedFrame& frame : frames) {
         views.push_back(frame.view());
@@ -178,6 +187,10 @@ std::string Sequence::description() const {
   return impl_->context->description();
 }
 
+std::vector<std::int64_t> Sequence::sheet_outputs(const rheo::Scene& scene, std::int64_t outputs) const {
+  return impl_->sheet_outputs(scene, outputs);
+}
+
 DrawCounters Sequence::counters() const {
   return impl_->counters;
 }
@@ -210,7 +223,8 @@ bool Sequence::draw(const rheo::Scene& scene, const Recorder& recorder, const Hi
           scene.picture.arrow_scale > 0.0 ? scene.picture.arrow_scale : largest_traction(recorder, edges)};
   impl_->bare = bare;
   render::MeshPicture picture(*impl_->context, layout);
-  if (!impl_->draw_frames(picture, recorder, edges, folder, progress, seconds, hooks)) return false;
+  if (!impl_->draw_frames(picture, recorder, scene.picture.every, edges, folder, progress, seconds, hooks))
+    return false;
   impl_->draw_sheet(scene, picture, recorder, edges, folder, seconds);
   const render::PictureCounters counted = picture.counters();
   impl_->counters = {counted.frames_drawn, counted.frames_repeated, counted.mesh_uploads};

@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "command_line.hpp"
 #include "history_file.hpp"
@@ -31,7 +32,7 @@ struct DrawCounters {
 
 // What drawing asks before each frame.
 struct DrawHooks {
-  std::function<bool(std::int64_t)> is_there;  // whether the frame is drawn already
+  std::function<bool(std::int64_t)> is_there;  // whether the frame of this number is drawn already
   std::function<bool()> goes_on;
 };
 
@@ -42,8 +43,10 @@ class Sequence {
 
   // Backend, driver and versions.
   std::string description() const;
-  // All recorded outputs as DIR/frames/..., then DIR/sheet.png and DIR/residual.png. False where it did not
-  // go on: the frames before are whole, and no others there.
+  // Those that the sheet of a run of so many outputs shows.
+  std::vector<std::int64_t> sheet_outputs(const rheo::Scene& scene, std::int64_t outputs) const;
+  // DIR/frames/... (frame_outputs.hpp), then DIR/sheet.png and DIR/residual.png. False where it did not go
+  // on: the frames before are whole, and no others there.
   bool draw(const rheo::Scene& scene, const Recorder& recorder, const HistoryFile& history,
             OutputFolder& folder, Progress& progress, Seconds& seconds, const DrawHooks& hooks);
   DrawCounters counters() const;

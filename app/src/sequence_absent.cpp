@@ -19,6 +19,10 @@ std::string Sequence::description() const {
   return "none";
 }
 
+std::vector<std::int64_t> Sequence::sheet_outputs(const rheo::Scene&, std::int64_t) const {
+  return {};
+}
+
 bool Sequence::draw(const rheo::Scene&, const Recorder&, const HistoryFile&, OutputFolder&, Progress&,
                     Seconds&, const DrawHooks&) {
   return true;

@@ -259,6 +259,9 @@ void validate(const PictureSettings& picture) {
   if (!(picture.arrow_scale >= 0.0) || !within_size(picture.arrow_scale))
     refuse(where, fmt::format("arrow_scale = {}: a traction (Pa) > 0, or 0 for the run's largest",
                               picture.arrow_scale));
+  if (picture.every < 1 || picture.every > most_every)
+    refuse(where, fmt::format("every = {}: a whole number of outputs from one frame to the next, 1 to {}",
+                              picture.every, most_every));
   if (picture.branch < 0)
     refuse(where, fmt::format("branch = {}: 0 for all, or a Maxwell branch from 1 on", picture.branch));
   const auto [low, high] = picture.range;

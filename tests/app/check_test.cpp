@@ -39,6 +39,7 @@ TEST_F(Check, TellsSizesMaterialLoadsAndSteps) {
   EXPECT_EQ(row(finished.out, "traction"), "1 edge, (5, 0) Pa, from 0 s until 0.2 s");
   EXPECT_EQ(row(finished.out, "probe"), "grip: 2 nodes");
   EXPECT_EQ(row(finished.out, "outputs"), "11 at 20 per second");
+  EXPECT_EQ(row(finished.out, "frames"), "11 with render, one an output");
   EXPECT_THAT(row(finished.out, "omega_max"), HasSubstr("rad/s"));
   EXPECT_THAT(row(finished.out, "step"), HasSubstr("auto: a quarter of the stable step"));
   EXPECT_THAT(row(finished.out, "cost"), HasSubstr("forecast"));
@@ -146,6 +147,25 @@ TEST_F(Check, ForecastsNothingOfARunThatDiverges) {
       rheo({"check", "beam.toml", "--step", "0.5", "--duration", "500", "--allow-unstable"});
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
   EXPECT_THAT(row(finished.out, "cost"), HasSubstr("diverges"));
+}
+
+TEST_F(Check, CountsTheFramesOfEveryNthOutputAndWhatTheyKeep) {
+  const auto check = [&](const std::string& every) {
+    write("beam.toml", small_beam_with("[render]", "[render]\nevery = " + every));
+    const Finished finished = rheo({"check", "beam.toml", "--frame-rate", "2000"});
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    return finished.out;
+  };
+  // Before "MB more": 12 bytes a node and frame.
+  const auto kept = [](const std::string& out) {
+    const std::string memory = row(out, "memory");
+    return std::stod(memory.substr(memory.find("keeps ") + 6));
+  };
+  const std::string all = check("1"), some = check("7");
+  EXPECT_EQ(row(all, "frames"), "1001 with render, one an output");
+  EXPECT_EQ(row(some, "frames"), "144 with render, one every 7 outputs and the last");
+  EXPECT_NEAR(kept(all), 1001 * 120e-6, 1e-3);
+  EXPECT_NEAR(kept(some), 144 * 120e-6, 1e-4);
 }
 
 TEST_F(Check, TakesOverrides) {

@@ -3,6 +3,7 @@
 
 #include <numeric>
 
+#include "frame_outputs.hpp"
 #include "frame_store.hpp"
 #include "nearest.hpp"
 #include "program.hpp"
@@ -63,6 +64,31 @@ TEST(SheetFrames, AreFewerInSmallPicturesUnlessANumberIsWanted) {
   EXPECT_THAT(few, ElementsAre(0, 60, 120, 180, 240, 300));
   EXPECT_THAT(app::sheet_frames(301, 60.0, {}, std::nullopt, 0), ElementsAre(0, 300));
   EXPECT_THAT(app::sheet_frames(301, 60.0, {}, 10, 3), SizeIs(10));
+}
+
+TEST(FrameOutputs, AreTheFirstEveryNthAndTheLast) {
+  EXPECT_EQ(app::frame_count(0, 3), 0);
+  for (const int every : {1, 2, 3, 7, 8, 9, 1000}) {
+    for (const std::int64_t outputs : {1, 2, 8, 9, 10}) {
+      std::vector<std::int64_t> expected, found;
+      for (std::int64_t k = 0; k < outputs; ++k)
+        if (k % every == 0 || k == outputs - 1) expected.push_back(k);
+      for (std::int64_t i = 0; i < app::frame_count(outputs, every); ++i)
+        found.push_back(app::frame_output(i, outputs, every));
+      EXPECT_EQ(found, expected) << outputs << " outputs, every " << every;
+    }
+  }
+}
+
+TEST(FrameOutputs, AreKeptWithThoseOfTheSheet) {
+  const app::KeptOutputs kept(12, 4, {5, 8, 2, 11, 5});
+  std::vector<std::int64_t> found;
+  for (std::int64_t k = 0; k < 12; ++k) {
+    EXPECT_EQ(kept.below(k), static_cast<std::int64_t>(found.size())) << k;
+    if (kept.has(k)) found.push_back(k);
+  }
+  EXPECT_THAT(found, ElementsAre(0, 2, 4, 5, 8, 11));
+  EXPECT_EQ(kept.count(), 6);
 }
 
 TEST(EventTimes, AreTheInnerEndsOfWindowsAndKeys) {

@@ -1,5 +1,6 @@
 // The command render: a frame per output, the sheet, the plot; the same pictures whatever draws and encodes
 // them.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <array>
@@ -161,6 +162,55 @@ TEST_F(Render, DrawsTheFramesBeforeADivergence) {
   EXPECT_EQ(frames("r").size(), read_table(folder() / "r/history.csv")["t"].size());
   EXPECT_THAT(files(),
               AllOf(Contains("r/sheet.png"), Contains("r/residual.png"), Not(Contains("r/state.csv"))));
+}
+
+// Fewer frames, and all else as it was: their range, their place, the sheet of all outputs, the tables.
+TEST_F(Render, EveryThirdOutputAndTheLastAreTheFramesOfAll) {
+  render("all");
+  const Finished finished = render("some", {"--every", "3"});
+  EXPECT_THAT(finished.out, HasSubstr("frame_00000.png ... frame_00004.png (5 files)"));
+  ASSERT_THAT(frames("some"), SizeIs(5));
+  int number = 0;
+  for (const char* output : {"0", "3", "6", "9", "10"}) {
+    const std::string there = fmt::format("all/frames/frame_{:0>5}.png", output);
+    EXPECT_EQ(read_text(folder() / fmt::format("some/frames/frame_{:05}.png", number++)),
+              read_text(folder() / there))
+        << there;
+  }
+  for (const char* name : {"sheet.png", "residual.png", "state.csv", "history.csv"})
+    EXPECT_EQ(read_text(folder() / "some" / name), read_text(folder() / "all" / name)) << name;
+  const auto json = nlohmann::json::parse(read_text(folder() / "some/run.json"));
+  EXPECT_EQ(json.at("settings").at("every"), 3);
+  EXPECT_EQ(json.at("outputs"), 11);
+
+  // As the scene says; the command line goes before it. The series for ParaView is of all outputs.
+  write("beam.toml", small_beam_with("[render]", "[render]\nevery = 100"));
+  render("ends", {"--vtu"});
+  EXPECT_THAT(frames("ends"), ElementsAre("ends/frames/frame_00000.png", "ends/frames/frame_00001.png"));
+  EXPECT_EQ(read_text(folder() / "ends/frames/frame_00001.png"),
+            read_text(folder() / "all/frames/frame_00010.png"));
+  EXPECT_THAT(files(), Contains("ends/vtu/state_00010.vtu"));
+  render("told", {"--every", "1"});
+  EXPECT_THAT(frames("told"), SizeIs(11));
+}
+
+TEST_F(Render, TheLastOutputBeforeADivergenceHasAFrame) {
+  write("late.toml", small_beam_with("until = 0.2", "from = 3.5\nuntil = 9"));
+  const std::vector<std::string> diverging{"render",           "late.toml", "--step",     "0.5",
+                                           "--frame-rate",     "1",         "--duration", "100",
+                                           "--allow-unstable", "--backend", "osmesa"};
+  const auto run = [&](const std::string& out, const std::string& every) {
+    std::vector<std::string> words = diverging;
+    words.insert(words.end(), {"-o", out, "--every", every});
+    expect_failure(rheo(words), 3, {"diverged"});
+  };
+  run("all", "1");
+  run("some", "1000");
+  const std::vector<std::string> all = frames("all");
+  ASSERT_THAT(frames("some"), SizeIs(2));
+  EXPECT_EQ(read_text(folder() / "some/frames/frame_00000.png"), read_text(folder() / all.front()));
+  EXPECT_EQ(read_text(folder() / "some/frames/frame_00001.png"), read_text(folder() / all.back()));
+  EXPECT_THAT(files(), Contains("some/sheet.png"));
 }
 
 // 5,001 frames: far more than are drawn before the kill.

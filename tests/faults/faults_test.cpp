@@ -106,6 +106,9 @@ TEST_F(Faults, KilledAtRandomMomentsARunGoesOnToTheSameEnd) {
   const KillReport run = kill_and_resume(cases.front(), 3, random, folder_ / "run");
   EXPECT_EQ(run.kills, 3);
   EXPECT_THAT(run.faults, IsEmpty());
+  const KillReport one = kill_and_resume(*(cases.end() - 2), 2, random, folder_ / "one");
+  EXPECT_EQ(one.kills, 2);
+  EXPECT_THAT(one.faults, IsEmpty());
   const KillReport last = kill_and_resume(cases.back(), 2, random, folder_ / "last");
   EXPECT_EQ(last.kills, 2);
   EXPECT_THAT(last.faults, IsEmpty());

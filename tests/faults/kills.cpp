@@ -93,8 +93,8 @@ std::vector<RunCase> run_cases(double length, bool pictures) {
       {"implicit, constraint", scene_text(25, 7, "consistent", grab + tie, 2.0 * length, 100, "implicit"),
        with({"run"})}};
   if (!pictures) return cases;
-  cases.push_back(
-      {"render, rk4", scene_text(9, 3, "lumped", grab, 2.0 * length, 60, "rk4"), with({"render"})});
+  cases.push_back({"render, rk4, every 7th output", scene_text(9, 3, "lumped", grab, 2.0 * length, 60, "rk4"),
+                   with({"render"}, {"--every", "7"})});
   cases.push_back({"render, exponential", scene_text(33, 9, "lumped", grab, 2.0 * length, 60, "exponential"),
                    with({"render"}, {"--color", "speed"})});
   return cases;

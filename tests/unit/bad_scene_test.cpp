@@ -72,6 +72,7 @@ std::vector<std::string> all_keys() {
       "color = \"w_lambda\"",                         // 50
       "range = \"auto\"",                             // 51
       "size = [1280, 720]",                           // 52
+      "every = 1",                                    // 53
   };
 }
 
@@ -144,7 +145,7 @@ TEST(BadScene, MissingKeysAreNamedWithTheirMeaning) {
 
 TEST(BadScene, KeysWithADefaultMayBeMissing) {
   for (const std::size_t line :
-       {1, 6, 7, 9, 16, 18, 21, 22, 23, 26, 27, 28, 30, 33, 37, 38, 44, 45, 46, 47, 48, 50, 51, 52}) {
+       {1, 6, 7, 9, 16, 18, 21, 22, 23, 26, 27, 28, 30, 33, 37, 38, 44, 45, 46, 47, 48, 50, 51, 52, 53}) {
     auto lines = all_keys();
     lines[line - 1] = "";
     EXPECT_NO_THROW(parse_lines(lines)) << "line " << line;
@@ -246,6 +247,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{50, "color = 1", "\"w_lambda\", \"w_mu\", \"w\", \"speed\" or \"none\""},
         BadValue{51, "range = 3", "range = 3: \"auto\" or [low, high]"},
         BadValue{51, "range = [1]", "range = [1]"},
+        BadValue{53, "every = \"all\"", "every = \"all\": a whole number of outputs"},
+        BadValue{53, "every = 2.0", "every = 2.0: a whole number of outputs"},
         BadValue{52, "size = 1280", "size = 1280: [width, height]"},
         BadValue{52, "size = [1280.0, 720]",
                  "size[0] = 1280.0: a whole number of pixels from 240 to 16384"}));
@@ -316,6 +319,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadValue{50, "color = \"red\"", "color = \"red\""},
         BadValue{51, "range = [2.0, 1.0]", "range = [2, 1]: \"auto\" or two finite numbers"},
         BadValue{51, "range = \"full\"", "range = \"full\""},
+        BadValue{53, "every = 0", "every = 0: a whole number of outputs"},
+        BadValue{53, "every = -3", "from 1 to 1000000000"},
+        BadValue{53, "every = 1000000001", "from 1 to 1000000000"},
         BadValue{52, "size = [239, 720]", "size[0] = 239: a whole number of pixels from 240 to 16384"},
         BadValue{52, "size = [1280, 159]", "size[1] = 159: a whole number of pixels from 160 to 16384"},
         BadValue{52, "size = [100000, 100000]",

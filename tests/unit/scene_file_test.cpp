@@ -130,6 +130,7 @@ color = "speed"
 branch = 1
 range = [0, 2.5]
 size = [640, 480]
+every = 20
 arrow_scale = 12.5
 )");
   EXPECT_EQ(scene.title, "All of it");
@@ -175,6 +176,7 @@ arrow_scale = 12.5
   EXPECT_FALSE(scene.picture.range_auto);
   EXPECT_THAT(scene.picture.range, ElementsAre(0.0, 2.5));
   EXPECT_THAT(scene.picture.size, ElementsAre(640, 480));
+  EXPECT_EQ(scene.picture.every, 20);
   EXPECT_EQ(scene.picture.arrow_scale, 12.5);
 }
 

@@ -120,6 +120,7 @@ TEST(Scene, EveryRefusalNamesItsPlaceAndValue) {
        }},
       {"[render] branch = 2:", "the material has 1 Maxwell branch,", [](Scene& s) { s.picture.branch = 2; }},
       {"[render] arrow_scale = -1:", "> 0", [](Scene& s) { s.picture.arrow_scale = -1.0; }},
+      {"[render] every = 0:", "1 to 1000000000", [](Scene& s) { s.picture.every = 0; }},
       {"[render] branch = -1:", "from 1 on", [](Scene& s) { s.picture.branch = -1; }},
   };
   for (const Case& c : cases) {

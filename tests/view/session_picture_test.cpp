@@ -6,6 +6,8 @@
 
 #include "draw_or_skip.hpp"
 #include "render/decode.hpp"
+#include "rheo/io/scene_file.hpp"
+#include "rheo/simulation.hpp"
 #include "view_scene.hpp"
 
 namespace view_tests {
@@ -38,19 +40,27 @@ void expect_the_same_picture(Driver& user, const fs::path& folder, Hold hold, Th
   user.key(key_of('S'));
   user.input.control = false;
   ASSERT_TRUE(user.until([&](const Display&) { return fs::exists(folder / "session_001.toml"); }));
+  // An output a tick, a frame every 20 of them and the last.
+  const rheo::Scene session = rheo::read_scene(folder / "session_001.toml");
   const std::int64_t last = user.ui.shown().ticks;
+  EXPECT_EQ(session.time.frame_rate, 1000.0);
+  EXPECT_EQ(session.picture.every, 20);
+  EXPECT_EQ(rheo::output_count(session.time), last + 1);
+  const auto last_frame = static_cast<int>((last + 19) / 20);
   const std::string command = std::string("\"") + RHEO_PROGRAM + "\" render \"" +
                               (folder / "session_001.toml").string() + "\" -o \"" +
                               (folder / "again").string() + "\" --quiet";
   ASSERT_EQ(WEXITSTATUS(std::system(command.c_str())), 0) << command;
   const render::Image shown = read_png(folder / "picture_001.png");
   char name[32];
-  std::snprintf(name, sizeof name, "frame_%05d.png", static_cast<int>(last));
+  std::snprintf(name, sizeof name, "frame_%05d.png", last_frame);
   const render::Image drawn = read_png(folder / "again/frames" / name);
   ASSERT_EQ(shown.width, drawn.width);
   ASSERT_EQ(shown.height, drawn.height);
   EXPECT_TRUE(shown.rgba == drawn.rgba) << "see " << folder;
   EXPECT_GT(last, 39);
+  std::snprintf(name, sizeof name, "frame_%05d.png", last_frame + 1);
+  EXPECT_FALSE(fs::exists(folder / "again/frames" / name));
 }
 
 TEST(ViewSession, UnderAPushItsPictureIsThatOfRender) {

@@ -11,6 +11,12 @@
 #include "view/ui.hpp"
 
 namespace app::view {
+namespace {
+
+// A session has an output a tick, of 1 ms: 50 frames a second of them.
+constexpr int session_every = 20;
+
+}  // namespace
 
 void Ui::run() {
   if (recording_.is_on())
@@ -81,6 +87,7 @@ void Ui::save_session() {
       scene->picture.arrow_scale = seen.arrow_scale;
       scene->picture.range_auto = seen.range_auto;
       scene->picture.range = seen.range;
+      scene->picture.every = session_every;
       const std::string hash = state_hash(core.live().simulation());
       try {
         core.say(Recording(folder).text_file(

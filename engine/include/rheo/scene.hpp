@@ -130,6 +130,7 @@ struct PictureSettings {
   bool range_auto = true;
   std::array<double, 2> range{0.0, 1.0};  // where not automatic
   std::array<int, 2> size{1280, 720};     // pixels
+  int every = 1;                          // outputs from one frame to the next; the last output has one too
   double arrow_scale = 0.0;               // traction of the longest arrow [Pa]; 0: the run's largest
   std::optional<std::array<double, 4>>
       bounds;                 // x0, y0, x1, y1 that pictures show [m]; none: the whole motion
@@ -187,6 +188,7 @@ inline constexpr double max_steps = 1e12;                        // duration / s
 inline constexpr std::array<int, 2> min_picture_size{240, 160};  // below it texts do not fit; width, height
 inline constexpr int max_picture_side = 16384;                   // what OpenGL draws
 inline constexpr std::size_t most_sheet_times = 64;
+inline constexpr int most_every = 1'000'000'000;  // outputs from one frame to the next
 // Of frame buffers with 4 samples and depth, and of two pictures on their way to a file.
 inline constexpr double bytes_a_pixel = 48.0;
 

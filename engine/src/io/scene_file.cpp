@@ -105,8 +105,8 @@ class SceneReader {
   }
 
   void read_render() {
-    const TableReader render =
-        tables_.table("render", {"color", "branch", "range", "size", "bounds", "arrow_scale", "sheet"});
+    const TableReader render = tables_.table(
+        "render", {"color", "branch", "range", "size", "every", "bounds", "arrow_scale", "sheet"});
     static const std::array<std::string, 5> colors{"w_lambda", "w_mu", "w", "speed", "none"};
     PictureSettings& p = scene_.picture;
     p.color = static_cast<ColorBy>(render.choice("color", colors, 0));
@@ -148,6 +148,9 @@ class SceneReader {
                                    max_picture_side, "whole number of pixels");
       }
     }
+    if (const TomlValue* every = render.find("every"))
+      p.every = render.integer("every", *every, 1, most_every,
+                               "whole number of outputs from one frame to the next,");
     p.arrow_scale = render.number("arrow_scale", {.low = 0.0, .low_allowed = false, .unit = "Pa"}, 0.0);
     if (const TomlValue* bounds = render.find("bounds")) read_bounds(render, *bounds);
     if (const TomlValue* sheet = render.find("sheet")) read_sheet(render, *sheet);

@@ -202,6 +202,7 @@ class SceneWriter {
     line("\n[render]\ncolor = \"{}\"\nsize = [{}, {}]", colors[static_cast<int>(p.color)], p.size[0],
          p.size[1]);
     if (p.branch != 0) line("branch = {}", p.branch);
+    if (p.every != 1) line("every = {}", p.every);
     // A session may be shorter than the scene that it began with.
     std::vector<std::string> shapes;
     for (std::size_t k = 0; k < p.sheet.size() && p.sheet[k] <= scene_.time.duration; ++k) {
