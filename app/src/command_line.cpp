@@ -26,7 +26,8 @@ constexpr const char* exit_codes =
     "  0  done\n"
     "  2  wrong usage or scene: nothing was written\n"
     "  3  the simulation diverged: when, where and the stable step are named\n"
-    "  4  a file or folder could not be read or written, memory was out, or no way to draw was found\n"
+    "  4  a file or folder could not be read or written, memory was out, no way to draw was found, or the\n"
+    "     display went away under the window\n"
     "  130, 143  a run was stopped by SIGINT (Ctrl-C), SIGTERM: --resume goes on with it\n"
     "A failure writes one line to standard error that says what to do.\n";
 

@@ -1,7 +1,7 @@
 #!/bin/sh
 # The real window under Xvfb, driven by xdotool, with a window manager (twm): a drag, a slider, sizes, minimised and
-# back, a saved session, the end by its key and by the window manager. Exit code 77: something that this needs is not
-# installed.
+# back, a saved session, the end by its key, by the window manager, by a signal and by itself, and the display that goes
+# away under it (exit code 4). Exit code 77: something that this needs is not installed.
 #
 #   sh tests/view/window.sh RHEO FOLDER
 set -u
@@ -102,6 +102,24 @@ start() {
     kill -0 "$program" 2>/dev/null || fail "the program has ended"
   done
 }
+
+# ends CODE LINES WHAT: the program ends, with a summary and so many lines on standard error.
+ends() {
+  waited=0
+  while kill -0 "$program" 2>/dev/null; do
+    sleep 0.2
+    waited=$((waited + 1))
+    [ $waited -lt 100 ] || fail "$3: it goes on"
+  done
+  wait "$program"
+  code=$?
+  program=
+  [ $code = "$1" ] || fail "$3: exit code $code instead of $1"
+  summary='^[0-9]+ frames in [0-9.]+ s, median [0-9.]+ ms, 99th percentile [0-9.]+ ms a frame; [0-9]+ steps to t = '
+  grep -Eq "$summary" log || fail "$3: no summary line"
+  [ "$(grep -Evc "$summary" log)" = "$2" ] || fail "$3: not $2 lines beside the summary"
+}
+
 start block.toml Block -o saved --close-after 180
 colours() { # how many a picture has
   timeout 30 import -window "$window" "$1.png" && convert "$1.png" -format %k info:
@@ -169,18 +187,7 @@ for size in "300 200" "2560 1440" "1280 720"; do
   [ "$(convert "$name.png" -format '%w %h' info:)" = "$size" ] || fail "another size than $size"
 done
 xdotool windowfocus "$window" mousemove --window "$window" 700 300 key ctrl+q
-waited=0
-while kill -0 "$program" 2>/dev/null; do
-  sleep 0.2
-  waited=$((waited + 1))
-  [ $waited -lt 100 ] || fail "it does not end by its key"
-done
-wait "$program"
-code=$?
-program=
-[ $code = 0 ] || fail "exit code $code"
-grep -Eq '^[0-9]+ frames in [0-9.]+ s, median [0-9.]+ ms, 99th percentile [0-9.]+ ms a frame; [0-9]+ steps to t = ' log ||
-  fail "no summary line"
+ends 0 0 "its key"
 
 # What the hand did, again and headless.
 "$rheo" run saved/session_001.toml -o again --quiet || fail "the session does not run"
@@ -233,38 +240,12 @@ sleep 1
 
 # Closed by the window manager.
 xdotool mousemove --window "$window" 700 300 keydown alt click 1 keyup alt
-waited=0
-while kill -0 "$program" 2>/dev/null; do
-  sleep 0.2
-  waited=$((waited + 1))
-  [ $waited -lt 100 ] || fail "it does not close"
-done
-wait "$program"
-code=$?
-program=
-[ $code = 0 ] || fail "closed, exit code $code"
-grep -q ' frames in ' log || fail "closed, no summary line"
-
-# ends CODE WHAT: the program ends by itself, with one line on standard error and a summary.
-ends() {
-  waited=0
-  while kill -0 "$program" 2>/dev/null; do
-    sleep 0.2
-    waited=$((waited + 1))
-    [ $waited -lt 100 ] || fail "$2: it goes on"
-  done
-  wait "$program"
-  code=$?
-  program=
-  [ $code = "$1" ] || fail "$2: exit code $code instead of $1"
-  grep -q ' frames in ' log || fail "$2: no summary line"
-  [ "$(grep -vc ' frames in ' log)" = 1 ] || fail "$2: not one line beside the summary"
-}
+ends 0 0 "the window manager"
 
 # Told to.
 start block.toml Block
 kill -TERM "$program"
-ends 143 "SIGTERM"
+ends 143 1 "SIGTERM"
 
 # By itself, and in silence.
 "$rheo" view block.toml --close-after 1 --quiet >log 2>&1 || fail "--close-after: exit code $?"
@@ -281,7 +262,7 @@ until [ -s lost/frames_001/frame_00003.png ]; do
 done
 kill -KILL "$xvfb"
 xvfb=
-ends 4 "no display any more"
+ends 4 1 "no display any more"
 for frame in lost/frames_001/*.png; do
   convert "$frame" -format '' info: || fail "no display any more: $frame is not whole"
 done
