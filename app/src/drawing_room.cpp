@@ -44,7 +44,7 @@ void require_drawing_room() {
     throw Failure(
         ExitCode::file,
         fmt::format("no room to draw: pictures need about {:.3g} GB of addresses, the shell's limit "
-                    "(ulimit -v) is {:.3g} GB",
+                    "(ulimit -v) is {:.3g} GB: raise it",
                     need * 1e-9, limit * 1e-9));
 }
 

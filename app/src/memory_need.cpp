@@ -68,7 +68,8 @@ void require_memory(const rheo::Scene& scene, const Options& options) {
   if (options.read.memory == 0.0) {
     // A limit counts addresses, used or not: libraries that draw map many, some of them end the program where
     // they get none.
-    const double mapped = options.command == Command::render ? drawing_addresses() : 0.0;
+    const bool draws = options.command == Command::render || options.command == Command::view;
+    const double mapped = draws ? drawing_addresses() : 0.0;
     if (rheo::memory_need(scene).total() + also + mapped > address_space_limit())
       throw Failure(ExitCode::file, memory_text(scene, options, limit_text(), mapped));
   }

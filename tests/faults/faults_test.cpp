@@ -361,6 +361,10 @@ TEST_F(Faults, DrawingWithoutAddressesIsOneLine) {
     EXPECT_TRUE(fs::exists(folder_ / "plot/relaxation.csv"));
     const Ended drawn = run(folder_, {"render", "scene.toml", "-o", "drawn", "--force"}, prepare);
     expect_line(drawn, 4, {"need about", "ulimit -v"});
+#ifdef RHEO_HAS_WINDOW
+    const Ended view = run(folder_, {"view", "scene.toml", "--close-after", "1"}, prepare);
+    expect_line(view, 4, {"no room to draw", "ulimit -v"});
+#endif
     const Ended bench =
         run(folder_, {"bench", "scene.toml", "-o", "bench", "--force", "--duration", "0.01", "--budget", "1"},
             prepare);

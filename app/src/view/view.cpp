@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "drawing_room.hpp"
 #include "failure.hpp"
 #include "program.hpp"
 #include "view/display_loss.hpp"
@@ -86,6 +87,7 @@ void show(view::GlfwWindow& window, view::Ui& ui, const view::SignalWatch& signa
 }  // namespace
 
 void view_scene(const Options& options) {
+  require_drawing_room();
   ViewSetup setup = view_setup(options);
   view::SignalWatch signals;
   std::unique_ptr<view::GlfwWindow> window;

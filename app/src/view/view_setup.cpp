@@ -1,5 +1,6 @@
 #include "view/view_setup.hpp"
 
+#include "memory_need.hpp"
 #include "overrides.hpp"
 
 namespace app {
@@ -20,6 +21,7 @@ view::PictureStyle style_of(const rheo::PictureSettings& picture) {
 ViewSetup view_setup(const Options& options) {
   ViewSetup setup;
   setup.scene = load_scene(options);
+  require_memory(setup.scene, options);
   setup.size = options.size.value_or(std::array<int, 2>{1280, 720});
   setup.ui.scene = options.scene;
   setup.ui.folder = options.folder;
@@ -27,9 +29,12 @@ ViewSetup view_setup(const Options& options) {
   // A scene that is loaded later is taken as it is, but for what a stranger's may do.
   setup.ui.read = [read = options.read](const std::filesystem::path& file) {
     Options other;
+    other.command = Command::view;
     other.scene = file;
     other.read = read;
-    return load_scene(other);
+    rheo::Scene scene = load_scene(other);
+    require_memory(scene, other);
+    return scene;
   };
   setup.core.simulation = options.simulation;
   return setup;

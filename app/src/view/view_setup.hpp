@@ -1,6 +1,6 @@
 // What the command line asks of the window, as the window's parts take it.
 //
-// Errors   as load_scene (overrides.hpp)
+// Errors   as load_scene (overrides.hpp), require_memory (memory_need.hpp)
 #pragma once
 
 #include <array>
