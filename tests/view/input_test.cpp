@@ -13,12 +13,8 @@ namespace view_tests {
 namespace {
 
 using app::view::Action;
-using app::view::Display;
 using app::view::Event;
-using app::view::Hold;
 using app::view::InputQueue;
-using app::view::Key;
-using app::view::key_of;
 using app::view::With;
 
 void tap(InputQueue& queue, Key key) {

@@ -10,10 +10,6 @@
 namespace view_tests {
 namespace {
 
-using app::view::Display;
-using app::view::Key;
-using app::view::key_of;
-
 using Holds = std::function<bool(const rheo::Material&)>;
 
 class ViewMaterial : public testing::Test {
@@ -87,9 +83,7 @@ TEST_F(ViewMaterial, BranchesAndPartsComeAndGoAndASessionKeepsThem) {
   user.key(key_of('R'));
   ASSERT_TRUE(user.until([](const Display& d) { return d.ticks == 0; }));
   ASSERT_TRUE(user.ticks(20));
-  user.input.control = true;
-  user.key(key_of('S'));
-  user.input.control = false;
+  user.key_with_control(key_of('S'));
   ASSERT_TRUE(user.until([&](const Display&) { return fs::exists(folder_ / "session_001.toml"); }));
   EXPECT_EQ(rheo::read_scene(folder_ / "session_001.toml").material, edited);
 }

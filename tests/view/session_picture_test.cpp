@@ -13,11 +13,6 @@
 namespace view_tests {
 namespace {
 
-using app::view::Display;
-using app::view::Hold;
-using app::view::Key;
-using app::view::key_of;
-
 enum class Then { hold_on, let_go };
 
 // Takes the block's right side, drags it, and lets it go or not; then F12 and Ctrl+S, at the same tick.
@@ -36,9 +31,7 @@ void expect_the_same_picture(Driver& user, const fs::path& folder, Hold hold, Th
   }
   user.frames(2);
   user.key(Key::f12);
-  user.input.control = true;
-  user.key(key_of('S'));
-  user.input.control = false;
+  user.key_with_control(key_of('S'));
   ASSERT_TRUE(user.until([&](const Display&) { return fs::exists(folder / "session_001.toml"); }));
   // An output a tick, a frame every 20 of them and the last.
   const rheo::Scene session = rheo::read_scene(folder / "session_001.toml");

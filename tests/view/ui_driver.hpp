@@ -19,6 +19,10 @@
 namespace view_tests {
 
 namespace fs = std::filesystem;
+using app::view::Display;
+using app::view::Hold;
+using app::view::Key;
+using app::view::key_of;
 
 inline fs::path output_folder() {
   const auto* info = testing::UnitTest::GetInstance()->current_test_info();
@@ -82,14 +86,19 @@ class Driver {
     press();
     release();
   }
-  void key(app::view::Key key) {
+  void key(Key key) {
     input.down = {key};
     frame();
     input.down.clear();
     frame();
   }
+  void key_with_control(Key with) {
+    input.control = true;
+    key(with);
+    input.control = false;
+  }
   // Frames until it is so; false after a minute.
-  bool until(const std::function<bool(const app::view::Display&)>& holds) {
+  bool until(const std::function<bool(const Display&)>& holds) {
     const auto begin = std::chrono::steady_clock::now();
     while (!holds(ui.shown())) {
       if (std::chrono::steady_clock::now() - begin > std::chrono::minutes(1)) return false;
@@ -102,7 +111,7 @@ class Driver {
   bool ticks(int count) {
     const std::int64_t end = ui.shown().ticks + count;
     physics.step(count);
-    return until([&](const app::view::Display& d) { return d.ticks >= end; });
+    return until([&](const Display& d) { return d.ticks >= end; });
   }
   // Where a point of the plane is in the window.
   std::array<float, 2> pixel(double x, double y) {
@@ -123,6 +132,19 @@ class Driver {
     const auto* found = widget(name);
     if (found == nullptr) return false;
     click(found->x0 + std::min(12.0f, (found->x1 - found->x0) / 2), (found->y0 + found->y1) / 2);
+    return true;
+  }
+
+  // Into a field, in the place of what is there.
+  bool type_into(const std::string& name, const std::string& text) {
+    if (!click_widget(name)) return false;
+    key_with_control(key_of('A'));
+    for (const char letter : text) {
+      input.text = {static_cast<unsigned char>(letter)};
+      frame();
+    }
+    key(Key::enter);
+    frame();
     return true;
   }
 

@@ -14,11 +14,6 @@
 namespace view_tests {
 namespace {
 
-using app::view::Display;
-using app::view::Hold;
-using app::view::Key;
-using app::view::key_of;
-
 bool all_finite(const Display& d) {
   const auto finite = [](double x) { return std::isfinite(x); };
   return std::ranges::all_of(d.positions, finite) && std::ranges::all_of(d.w_lambda, finite) &&

@@ -19,10 +19,6 @@
 namespace view_tests {
 namespace {
 
-using app::view::Display;
-using app::view::Key;
-using app::view::key_of;
-
 // Somebody who presses whatever there is, once.
 class Explorer {
  public:

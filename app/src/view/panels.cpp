@@ -13,7 +13,6 @@
 namespace app::view {
 namespace {
 
-constexpr const char* color_names[]{"|w_lambda|", "|w_mu|", "|w| (both)", "speed", "none"};
 constexpr const char* integrator_names[]{"rk4", "euler", "exponential", "implicit"};
 
 // Okabe and Ito's, as in the plots of a run.
@@ -89,37 +88,6 @@ void Ui::draw_hand_section() {
   double strength = push_gain();
   if (widgets_.slider("strength", &strength, usual_push_ * 1e-3, usual_push_ * 1e3, "%.6g Pa/m"))
     chosen_push_ = strength;
-  widgets_.end_section();
-}
-
-void Ui::draw_colour_section() {
-  if (!widgets_.begin_section("Picture", Widgets::At::first_open)) return;
-  int color = static_cast<int>(style_.color);
-  if (widgets_.choice("colour", &color, color_names)) style_.color = static_cast<rheo::ColorBy>(color);
-  if (widgets_.radio("auto", style_.range_mode == RangeMode::automatic))
-    style_.range_mode = RangeMode::automatic;
-  ImGui::SameLine();
-  if (widgets_.radio("held", style_.range_mode == RangeMode::held)) style_.range_mode = RangeMode::held;
-  ImGui::SameLine();
-  if (widgets_.radio("typed", style_.range_mode == RangeMode::typed) &&
-      style_.range_mode != RangeMode::typed) {
-    style_.range_mode = RangeMode::typed;
-    style_.typed = picture_.range();
-  }
-  ImGui::SameLine();
-  label("range");
-  if (style_.range_mode == RangeMode::typed) {
-    rheo::Vec2 range{style_.typed[0], style_.typed[1]};
-    if (widgets_.pair("low, high", &range, "%.4g") && range.x > range.y) std::swap(range.x, range.y);
-    style_.typed = {range.x, range.y};
-  }
-  widgets_.checkbox("mesh", &style_.mesh_lines);
-  ImGui::SameLine();
-  widgets_.checkbox("rest shape", &style_.rest_shape);
-  ImGui::SameLine();
-  widgets_.checkbox("nodes", &style_.node_numbers);
-  ImGui::SameLine();
-  widgets_.checkbox("dark", &style_.dark);
   widgets_.end_section();
 }
 

@@ -24,6 +24,16 @@ double rounded_up(double x) {
 
 }  // namespace
 
+PictureStyle style_of(const rheo::PictureSettings& picture) {
+  PictureStyle style;
+  style.color = picture.color;
+  if (!picture.range_auto) {
+    style.range_mode = RangeMode::typed;
+    style.typed = picture.range;
+  }
+  return style;
+}
+
 void Picture::find_scalar(const Display& display, rheo::ColorBy color) {
   switch (color) {
     case rheo::ColorBy::w_lambda:

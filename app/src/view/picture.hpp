@@ -24,6 +24,9 @@ struct PictureStyle {
   bool mesh_lines = true, rest_shape = true, node_numbers = false, dark = false;
 };
 
+// As a scene asks for it.
+PictureStyle style_of(const rheo::PictureSettings& picture);
+
 class Picture {
  public:
   explicit Picture(render::Context& context) : context_(context) {}

@@ -28,6 +28,7 @@ Ui::Ui(render::Context& context, Physics& physics, UiSettings settings)
       picture_(context),
       recording_(settings_.folder),
       style_(settings_.style),
+      typed_{settings_.style.typed[0], settings_.style.typed[1]},
       scale_(settings_.scale) {
   ImGui::SetCurrentContext(imgui_);
   ImGuiIO& io = ImGui::GetIO();
@@ -127,7 +128,7 @@ void Ui::take_display() {
     pieces_ = rheo::pieces_of(base_->mesh);
     chosen_push_.reset();
     usual_push_ = default_push(*base_, pieces_, base_->mesh.edge_groups.at("boundary").front());
-    if (base_body_ >= 0) style_.color = d.scene->picture.color;
+    if (base_body_ >= 0) take_colours_of(*d.scene);
     frame_times_.begin_again();  // another scene's times are its own
   }
   base_body_ = d.body;

@@ -137,11 +137,16 @@ class Ui {
   void draw_branch(BranchValues b, const rheo::MaxwellBranch& base);
   void modulus(const char* name, double* value, double base, double usual, const char* unit);
   void viscosity(const char* name, double* value, double base, double ela);
+  // ui_colour.cpp
+  void choose_colour(rheo::ColorBy color);
+  void take_colours_of(const rheo::Scene& scene);
+  void type_range(const std::array<double, 2>& range);
+  void take_typed_range();
+  void draw_colour_section();
   // panels.cpp
   void draw_panels();
   void draw_controls();
   void draw_hand_section();
-  void draw_colour_section();
   void draw_load_section();
   void draw_time_section();
   void draw_scene_section();
@@ -160,6 +165,7 @@ class Ui {
   SlowMotion slow_motion_;
   const Display* display_ = nullptr;
   PictureStyle style_;
+  rheo::Vec2 typed_;  // low, high in their fields
   bool dark_set_ = false;
   float scale_ = 1.0f;  // of texts and widgets
 

@@ -150,8 +150,7 @@ void Ui::act(Action action) {
       style_.dark = !style_.dark;
       return;
     case Action::next_colour:
-      style_.color = static_cast<rheo::ColorBy>((static_cast<int>(style_.color) + 1) % 5);
-      return;
+      return choose_colour(static_cast<rheo::ColorBy>((static_cast<int>(style_.color) + 1) % 5));
     case Action::plots:
       plots_ = !plots_;
       return;

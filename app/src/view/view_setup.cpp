@@ -4,19 +4,6 @@
 #include "overrides.hpp"
 
 namespace app {
-namespace {
-
-view::PictureStyle style_of(const rheo::PictureSettings& picture) {
-  view::PictureStyle style;
-  style.color = picture.color;
-  if (!picture.range_auto) {
-    style.range_mode = view::RangeMode::typed;
-    style.typed = picture.range;
-  }
-  return style;
-}
-
-}  // namespace
 
 ViewSetup view_setup(const Options& options) {
   ViewSetup setup;
@@ -25,7 +12,7 @@ ViewSetup view_setup(const Options& options) {
   setup.size = options.size.value_or(std::array<int, 2>{1280, 720});
   setup.ui.scene = options.scene;
   setup.ui.folder = options.folder;
-  setup.ui.style = style_of(setup.scene.picture);
+  setup.ui.style = view::style_of(setup.scene.picture);
   // A scene that is loaded later is taken as it is, but for what a stranger's may do.
   setup.ui.read = [read = options.read](const std::filesystem::path& file) {
     Options other;
