@@ -67,6 +67,8 @@ TEST(ViewColours, ATypedRangeIsTakenAsAWholeOrRefused) {
   ASSERT_TRUE(user.type_into("low, high x", "20"));
   ASSERT_TRUE(user.type_into("low, high y", "30"));
   EXPECT_THAT(user.ui.picture().range(), ElementsAre(20.0, 30.0)) << "both ends, one after the other";
+  EXPECT_TRUE(user.says("colours from 20 to 30"));
+  EXPECT_FALSE(user.says("low < high is needed"));
 }
 
 TEST(ViewColours, ARangeDoesNotOutliveItsUnit) {

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <string>
+
 #include "node_scalars.hpp"
 #include "rheo/limits.hpp"
 #include "view/ui.hpp"
@@ -35,11 +37,12 @@ void Ui::type_range(const std::array<double, 2>& range) {
 
 // What is no range waits in its fields until its other end is typed too.
 void Ui::take_typed_range() {
-  if (typed_.x < typed_.y && rheo::within_size(typed_.x) && rheo::within_size(typed_.y))
-    style_.typed = {typed_.x, typed_.y};
-  else
-    say(fmt::format("colours from {:.4g} to {:.4g}: low < high is needed, each of at most {:g} in size",
-                    typed_.x, typed_.y, rheo::largest_size));
+  const std::string colours = fmt::format("colours from {:.4g} to {:.4g}", typed_.x, typed_.y);
+  if (!(typed_.x < typed_.y) || !rheo::within_size(typed_.x) || !rheo::within_size(typed_.y))
+    return say(
+        fmt::format("{}: low < high is needed, each of at most {:g} in size", colours, rheo::largest_size));
+  style_.typed = {typed_.x, typed_.y};
+  say(colours);
 }
 
 void Ui::draw_colour_section() {
