@@ -7,6 +7,8 @@
 #include "frame_store.hpp"
 #include "nearest.hpp"
 #include "program.hpp"
+#include "recorder.hpp"
+#include "rheo/shapes.hpp"
 #include "sheet_frames.hpp"
 
 namespace app_tests {
@@ -134,6 +136,60 @@ TEST_F(FrameStore, GivesRecordsBackFromMemoryAndFromAFileThatGoesWithIt) {
 
 TEST_F(FrameStore, SaysBeforehandThatTheDiskIsTooSmall) {
   EXPECT_THROW(app::FrameStore(folder(), std::size_t{1} << 40, std::int64_t{1} << 40), std::exception);
+}
+
+class Recorder : public ProgramTest {
+ protected:
+  static rheo::Scene scene() {
+    rheo::Scene scene;
+    scene.mesh = rheo::rectangle({1.0, 0.25}, 5, 2);
+    scene.material = {.lambda_ela = 7, .mu_ela = 5, .lambda_vis = 4, .mu_vis = 2, .density = 0.2};
+    scene.fixes.emplace_back().nodes = rheo::nodes_of(scene.mesh.edge_groups.at("left"));
+    scene.body_acceleration = {1.0, 0.0};
+    scene.time.duration = 1.0;
+    scene.time.frame_rate = 20.0;
+    return scene;
+  }
+  using Drawn = std::pair<std::vector<double>, std::vector<double>>;  // positions, scalars
+  static Drawn read(const app::Recorder& recorder, std::int64_t k) {
+    Drawn drawn;
+    recorder.read(k, drawn.first, drawn.second);
+    return drawn;
+  }
+};
+
+// A run that diverges ends at an output that was not to be kept, and may have been cut at just that one.
+TEST_F(Recorder, KeepsTheLastOutputWhereverARunEnds) {
+  rheo::Simulation simulation(scene());
+  app::Recorder all(scene(), folder() / "all", app::KeptOutputs(21, 1, {}));
+  app::Recorder some(scene(), folder(), app::KeptOutputs(21, 3, {5}));
+  constexpr std::int64_t outputs = 9;
+  for (std::int64_t k = 0; k < outputs; ++k) {
+    ASSERT_FALSE(simulation.advance(rheo::output_time(simulation.scene().time, k)));
+    all.record(simulation, k);
+    some.record(simulation, k);
+  }
+  rheo::ByteWriter bytes;
+  some.put(bytes);
+  some.end();
+  const std::string kept = bytes.take();
+  rheo::ByteReader in(kept, "kept");
+  app::Recorder later(scene(), folder(), app::KeptOutputs(21, 3, {5}));
+  later.get(in);
+  in.expect_end();
+  later.end();
+  for (const app::Recorder* recorder : {&some, &later}) {
+    EXPECT_EQ(recorder->count(), outputs);
+    EXPECT_EQ(recorder->bounds(), all.bounds()) << "of all outputs";
+    EXPECT_EQ(recorder->scalar_range(), all.scalar_range());
+    for (const std::int64_t k : {0, 3, 5, 6, 8}) {
+      EXPECT_EQ(read(*recorder, k), read(all, k)) << k;
+      EXPECT_EQ(recorder->nearest_kept(k), k);
+    }
+    EXPECT_EQ(recorder->nearest_kept(1), 0);
+    EXPECT_EQ(recorder->nearest_kept(2), 3);
+    EXPECT_EQ(recorder->nearest_kept(7), 6);
+  }
 }
 
 }  // namespace

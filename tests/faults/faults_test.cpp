@@ -417,6 +417,15 @@ TEST_F(FaultsOfPictures, KilledWhileDrawingItGoesOnWithoutSimulatingAnew) {
   expect_resumed_to_the_same_end();
 }
 
+TEST_F(FaultsOfPictures, AnotherChoiceOfFramesIsNotGoneOnWith) {
+  Child child(folder_, case_.arguments);
+  ASSERT_TRUE(wait_for_frame(child, "frame_00003.png"));
+  child.send(SIGINT);
+  child.wait();
+  expect_line(run(folder_, with({"--resume", "--every", "3"})), 2, {"checkpoint.rheo", "--every 1, not 3"});
+  expect_resumed_to_the_same_end();
+}
+
 TEST_F(FaultsOfPictures, ADiskThatIsFullOfFramesIsOneLine) {
   const auto room = static_cast<rlim_t>(fs::file_size(undisturbed() / "frames/frame_00030.png") - 1);
   const Ended ended = run(folder_, with({"--checkpoint", "never"}), [&] { limit_files_to(room); });
