@@ -14,8 +14,9 @@ using Symmetric = Eigen::SelfAdjointEigenSolver<MatrixR>;
 // Of the largest eigenvalue: by how much QR's rounding may move one, and what no deformation has.
 constexpr Real rounding = 1e-17L;
 constexpr Real rigid = 1e-16L;
-// Of the largest stiffness of a rate: it is added up in double.
-constexpr Real no_stiffness = 1e-14L;
+// Of the largest stiffness of a region's J, which is added up in double; and of a root's largest row.
+constexpr Real no_stiffness = 1e-13L;
+constexpr Real no_row = 1e-15L;
 
 // The rows of the root of a symmetric matrix that are not zero: root^T root = matrix. False where QR
 // iteration does not end.
@@ -30,6 +31,35 @@ bool root_of(const MatrixR& matrix, MatrixR& root) {
     root.row(i - first) = std::sqrt(solver.eigenvalues()[i]) * solver.eigenvectors().col(i).transpose();
   return true;
 }
+
+// J^1/2 of each region and modulus apart. Their sums are never made: lambda may be 1e8 times mu, and the
+// small stiffness of a shear beside it would be rounding.
+struct Roots {
+  std::vector<MatrixR> lambda, mu;  // by region
+
+  // Rows with root^T root = sum of moduli times J, as few as that takes.
+  MatrixR of(const std::vector<Moduli>& moduli) const {
+    Eigen::Index rows = 0;
+    const auto each = [&](const auto& visit) {
+      for (std::size_t r = 0; r < moduli.size(); ++r) {
+        if (moduli[r].lambda > 0.0) visit(moduli[r].lambda, lambda[r]);
+        if (moduli[r].mu > 0.0) visit(moduli[r].mu, mu[r]);
+      }
+    };
+    each([&](double, const MatrixR& root) { rows += root.rows(); });
+    MatrixR all(rows, lambda[0].cols());
+    Eigen::Index at = 0;
+    each([&](double modulus, const MatrixR& root) {
+      all.middleRows(at, root.rows()) = std::sqrt(static_cast<Real>(modulus)) * root;
+      at += root.rows();
+    });
+    if (all.rows() == 0) return all;
+    Eigen::ColPivHouseholderQR<MatrixR> qr(all);
+    qr.setThreshold(no_row);
+    const MatrixR top = qr.matrixR().topRows(qr.rank()).template triangularView<Eigen::Upper>();
+    return top * qr.colsPermutation().transpose();
+  }
+};
 
 // About the rank of a rate's stiffness on n degrees of freedom: in a region that is not all of the body,
 // three strains a triangle, or one where lambda's springs are alone; small meshes have half as many triangles
@@ -104,20 +134,31 @@ std::vector<std::complex<double>> full_spectrum(const Model& model, const Constr
   if (mass.info() != Eigen::Success) return {};
   const MatrixR unroot = mass.operatorInverseSqrt();
   const MatrixR to_v = unroot * free_directions(unroot, columns);
-  const auto stiffness = [&](const std::vector<Moduli>& moduli) {
-    return MatrixR(to_v.transpose() * dense([&] { image = model.stiffness(moduli, unit); }) * to_v);
-  };
+  Roots roots;
+  std::vector<Moduli> one(materials.size());
+  for (std::size_t r = 0; r < materials.size(); ++r) {
+    for (const bool is_lambda : {true, false}) {
+      MatrixR& root = (is_lambda ? roots.lambda : roots.mu).emplace_back();
+      one[r] = {is_lambda ? 1.0 : 0.0, is_lambda ? 0.0 : 1.0};
+      if (!root_of(dense([&] { image = model.stiffness(one, unit); }), root)) return {};
+      root = root * to_v;
+    }
+    one[r] = {};
+  }
   std::vector<MatrixR> couplings;
   Eigen::Index all = to_v.cols();
   for (const SharedRelaxation& each : relaxations) {
-    if (!root_of(stiffness(each.moduli), couplings.emplace_back())) return {};
+    couplings.push_back(roots.of(each.moduli));
     all += couplings.back().rows();
   }
   const bool damped = model.has_viscous_part();
   if (all > most || all == 0 || (all == to_v.cols() && !damped)) return {};
 
   MatrixR full = MatrixR::Zero(all, all);
-  if (damped) full.topLeftCorner(to_v.cols(), to_v.cols()) = -stiffness(viscous);
+  if (damped) {
+    const MatrixR dashpots = roots.of(viscous);
+    full.topLeftCorner(to_v.cols(), to_v.cols()) = -dashpots.transpose() * dashpots;
+  }
   Eigen::Index at = to_v.cols();
   for (std::size_t k = 0; k < couplings.size(); ++k) {
     const Eigen::Index rows = couplings[k].rows();

@@ -49,6 +49,9 @@ RitzPair largest_pair(const Eigen::Ref<const Vector>& diagonal, const Eigen::Ref
 RitzBound largest_frequency(const Model& model, const ConstraintSolver& solver,
                             const std::vector<Moduli>& moduli) {
   const auto size = static_cast<Eigen::Index>(model.layout.part);
+  std::size_t free = 0;
+  for (std::size_t dof = 0; dof < model.layout.part; ++dof) free += solver.is_free(dof) ? 1 : 0;
+  if (free <= solver.columns().size()) return {};  // what a projection leaves is rounding
   const Vector target = Vector::Zero(static_cast<Eigen::Index>(solver.columns().size()));
   Vector multipliers = target;
   Vector mass_times(size);
@@ -74,7 +77,7 @@ RitzBound largest_frequency(const Model& model, const ConstraintSolver& solver,
   project(start, q);
   double beta = norm(q);
   RitzBound result;
-  if (!(beta > 0.0)) return result;  // nothing is free
+  if (!(beta > 0.0)) return result;
   q /= beta;
   beta = 0.0;
 

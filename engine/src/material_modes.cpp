@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mode_root.hpp"
+
 namespace rheo {
 namespace {
 
@@ -51,14 +53,19 @@ class MaterialModes {
     step_ = std::numeric_limits<double>::infinity();
     for (const double rate : rates_)
       if (rate > 0.0) take(-rate);
-    std::vector<Ray> unit = rays_;
-    for (Ray& ray : unit) {
+    std::vector<Ray> unit;
+    for (Ray ray : rays_) {
+      // Where nothing can move, nothing is stretched either.
+      if (!(spectrum_.omega_max > 0.0)) ray.springs.setZero();
+      if (!(spectrum_.viscous_max > 0.0)) ray.dashpots = 0.0;
       double size = 0.0;
       if (spectrum_.omega_max > 0.0)
         size += theta * ray.springs.sum() / (spectrum_.omega_max * spectrum_.omega_max);
       if (theta < 1.0) size += (1.0 - theta) * ray.dashpots / spectrum_.viscous_max;
+      if (!(size > 0.0)) continue;
       ray.springs /= size;
       ray.dashpots /= size;
+      unit.push_back(std::move(ray));
     }
     for (std::size_t i = 0; i < unit.size() && step_ > 0.0; ++i) {
       magnitudes(unit[i]);
@@ -89,38 +96,21 @@ class MaterialModes {
   void include(const Ray& mode) {
     used_.clear();
     for (Eigen::Index k = 0; k < mode.springs.size(); ++k)
-      if (mode.springs[k] > 0.0) used_.push_back(k);
+      if (mode.springs[k] > 0.0) used_.push_back({mode.springs[k], rates_[static_cast<std::size_t>(k)]});
     const auto n = static_cast<Eigen::Index>(used_.size());
     Eigen::MatrixXd m = Eigen::MatrixXd::Zero(1 + n, 1 + n);  // on v and sqrt(spring) q of each rate
     m(0, 0) = -mode.dashpots;
     for (Eigen::Index i = 0; i < n; ++i) {
-      const Eigen::Index k = used_[static_cast<std::size_t>(i)];
-      m(0, 1 + i) = -std::sqrt(mode.springs[k]);
+      const ModeSpring& spring = used_[static_cast<std::size_t>(i)];
+      m(0, 1 + i) = -std::sqrt(spring.stiffness);
       m(1 + i, 0) = -m(0, 1 + i);
-      m(1 + i, 1 + i) = -rates_[static_cast<std::size_t>(k)];
+      m(1 + i, 1 + i) = -spring.rate;
     }
     const double size = m.cwiseAbs().maxCoeff();
     solver_.compute(m, false);
     for (const std::complex<double> s : solver_.eigenvalues()) {
-      if (std::abs(s) > 1e-13 * size) take(polished(s, mode));
+      if (std::abs(s) > 1e-13 * size) take(sharpened_root(s, used_, mode.dashpots));
     }
-  }
-
-  // The solver's error is one part of the largest rate, which may be far above a vibration's damping:
-  // Newton's steps on s + dashpots + sum of springs / (s + rate).
-  std::complex<double> polished(std::complex<double> s, const Ray& mode) const {
-    if (s.imag() == 0.0) return std::min(s.real(), 0.0);
-    for (int k = 0; k < 4; ++k) {
-      std::complex<double> value = s + mode.dashpots, slope = 1.0;
-      for (const Eigen::Index i : used_) {
-        const std::complex<double> apart = s + rates_[static_cast<std::size_t>(i)];
-        const std::complex<double> part = mode.springs[i] / apart;
-        value += part;
-        slope -= part / apart;
-      }
-      s -= value / slope;
-    }
-    return {std::min(s.real(), 0.0), s.imag()};
   }
 
   void take(std::complex<double> s) { step_ = std::min(step_, stable_step_of(s, IntegratorKind::euler)); }
@@ -129,7 +119,7 @@ class MaterialModes {
   const Spectrum& spectrum_;
   std::vector<double> rates_;  // rising
   std::vector<Ray> rays_;
-  std::vector<Eigen::Index> used_;
+  std::vector<ModeSpring> used_;
   Eigen::EigenSolver<Eigen::MatrixXd> solver_;
   double step_ = 0.0;
 };

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "material_modes.hpp"
+#include "mode_root.hpp"
 
 namespace rheo {
 namespace {
@@ -202,11 +203,13 @@ class ParallelModes {
       take({-0.5 * decay, mode.omega});
       return step_ < before;
     }
+    springs_of_mode_.clear();
     mode_.setZero();  // on v and sqrt(stiffness) q of each rate: nearly normal
     mode_(0, 0) = -mode.damping;
     for (Eigen::Index i = 0; i < parts_; ++i) {
       const Relaxation& each = spectrum_.relaxations[static_cast<std::size_t>(i)];
-      const double coupling = std::sqrt(mode.b * stiffness(each, mode.ratio));
+      springs_of_mode_.push_back({mode.b * stiffness(each, mode.ratio), each.rate});
+      const double coupling = std::sqrt(springs_of_mode_.back().stiffness);
       mode_(0, 1 + i) = -coupling;
       mode_(1 + i, 0) = coupling;
       mode_(1 + i, 1 + i) = -each.rate;
@@ -214,7 +217,7 @@ class ParallelModes {
     solver_.compute(mode_, false);
     // A real part that is rounding is none: the true one is never positive.
     for (const std::complex<double> s : solver_.eigenvalues()) {
-      if (std::abs(s) > 1e-13 * (size + mode.omega)) take({std::min(s.real(), 0.0), s.imag()});
+      if (std::abs(s) > 1e-13 * (size + mode.omega)) take(sharpened_root(s, springs_of_mode_, mode.damping));
     }
     return step_ < before;
   }
@@ -250,6 +253,7 @@ class ParallelModes {
   IntegratorKind integrator_;
   Eigen::Index parts_;
   Eigen::MatrixXd mode_;
+  std::vector<ModeSpring> springs_of_mode_;
   Eigen::EigenSolver<Eigen::MatrixXd> solver_;
   Moduli springs_;
   double spacing_;  // of magnitudes, in octaves
@@ -376,7 +380,8 @@ double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
           // A real part that is rounding is none: the true one is never positive.
           const double floor = 1e-13 * fastest;
           if (std::abs(s) <= floor) continue;
-          include({std::min(s.real(), 0.0), s.imag()});
+          const ModeSpring springs[] = {{a * omega * omega, p}, {(1.0 - a) * omega * omega, q}};
+          include(sharpened_root(s, springs, 0.0));
         }
       }
     }

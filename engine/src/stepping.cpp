@@ -27,12 +27,10 @@ constexpr double motion_lag = 20.0;  // of a motion's way: what one step over al
 constexpr int most_excuses = 12;
 constexpr double excused_growth = 4.0;
 // Where the step is beyond the stable one: of the energy that went in, where the work is known to rounding;
-// with general constraints but for what they let drift; and by how much Euler's energy may rise before it
-// falls.
+// and by how much Euler's energy may rise before it falls.
 constexpr double unstable_slack = 1e-6;
 constexpr double euler_overshoot = 1e-3;
 constexpr double cancelled_rounding = 1e-12;  // of loads and constraint forces that cancel each other
-constexpr double unstable_slack_with_constraints = 1e-2;
 // Of the way that unresisted loads would make in a step: constraint forces cancel them but for rounding.
 constexpr double cancelled_loads = 1e-6;
 
@@ -88,6 +86,12 @@ bool Stepping::has_constant_loads() const {
   return hands_ == nullptr && scene_.moves.empty() &&
          std::all_of(scene_.tractions.begin(), scene_.tractions.end(),
                      [](const Traction& t) { return t.keys.size() == 1; });
+}
+// In the interval of now.
+bool Stepping::is_loaded() const {
+  return scene_.body_acceleration != Vec2{} ||
+         std::any_of(scene_.tractions.begin(), scene_.tractions.end(),
+                     [&](const Traction& t) { return is_active(t.window, interval_.begin); });
 }
 // Likewise: nothing, or unknown.
 bool Stepping::books_dissipated() const {
@@ -274,8 +278,8 @@ std::optional<Divergence> Stepping::check_divergence() {
 double Stepping::explained_energy() const {
   if (!is_beyond_limit() || !has_constant_loads()) return book_.work() + book_.turnover();
   const bool euler = scene_.time.integrator == IntegratorKind::euler;
-  double slack = euler ? 1.0 : unstable_slack;
-  if (!euler && !interval_.solver->columns().empty()) slack = unstable_slack_with_constraints;
+  // Euler's work is a step late. Constraints alone do none, and what a pole of theirs feeds is no excuse.
+  const double slack = euler && is_loaded() ? 1.0 : unstable_slack;
   return (1.0 + (euler ? euler_overshoot : unstable_slack)) * begun_.energy + (book_.work() - begun_.work) +
          slack * (book_.net_turnover() - begun_.net_turnover) +
          cancelled_rounding * (book_.turnover() - begun_.turnover);

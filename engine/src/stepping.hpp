@@ -56,6 +56,7 @@ class Stepping {
   // Whether the quadrature over a step gives all of the work, and of what is dissipated.
   bool books_work() const;
   bool has_constant_loads() const;
+  bool is_loaded() const;
   bool is_beyond_limit() const { return limits_.bound > limits_.stable; }  // as the user allowed
   double explained_energy() const;
   double cancelled_way();

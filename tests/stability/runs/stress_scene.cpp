@@ -103,37 +103,63 @@ Material material_of(Draw& draw, Mass mass, int most_branches, bool whole) {
   return m;
 }
 
-void constrain(Draw& draw, StressScene& stress) {
-  Scene& scene = stress.scene;
-  const Mesh& mesh = scene.mesh;
+// lambda over mu from 0 to 1e8, the relaxation times kept: nearly incompressible, or each branch for itself.
+void spread_ratios(Draw& draw, Material& m) {
+  const double choice = draw.unit();
+  const double shared = choice < 0.2 ? 0.0 : draw.decades(1e4, 1e8);
+  const auto ratio = [&] { return choice < 0.7 ? shared : draw.decades(1e-8, 1e8); };
+  const auto spread = [&](double& lambda_ela, double& lambda_vis, double mu_ela, double mu_vis) {
+    if (mu_ela == 0.0) return;
+    const double time = lambda_ela > 0.0 ? lambda_vis / lambda_ela : mu_vis / mu_ela;
+    lambda_ela = mu_ela * ratio();
+    if (lambda_ela > 0.0) lambda_vis = lambda_ela * time;
+  };
+  spread(m.lambda_ela, m.lambda_vis, m.mu_ela, m.mu_vis);
+  for (MaxwellBranch& b : m.more_branches) spread(b.lambda_ela, b.lambda_vis, b.mu_ela, b.mu_vis);
+  for (Moduli* moduli : {&m.elastic, &m.viscous}) moduli->lambda = moduli->mu * ratio();
+}
+
+struct Sides {
   std::set<int> left, bottom;
+};
+
+Sides sides_of(const Mesh& mesh) {
+  Sides sides;
   double x = infinite, y = infinite;
   for (const Vec2& p : mesh.points) x = std::min(x, p.x), y = std::min(y, p.y);
   for (int i = 0; i < mesh.node_count(); ++i) {
-    if (mesh.points[static_cast<std::size_t>(i)].x == x) left.insert(i);
-    if (mesh.points[static_cast<std::size_t>(i)].y == y) bottom.insert(i);
+    if (mesh.points[static_cast<std::size_t>(i)].x == x) sides.left.insert(i);
+    if (mesh.points[static_cast<std::size_t>(i)].y == y) sides.bottom.insert(i);
   }
-  const auto fix = [&](const std::set<int>& nodes, Axis axis) {
-    scene.fixes.push_back({{nodes.begin(), nodes.end()}, axis, {}, "fix"});
-  };
+  return sides;
+}
+
+void fix(Scene& scene, const std::set<int>& nodes, Axis axis) {
+  scene.fixes.push_back({{nodes.begin(), nodes.end()}, axis, {}, "fix"});
+}
+
+void constrain(Draw& draw, StressScene& stress) {
+  Scene& scene = stress.scene;
+  const Mesh& mesh = scene.mesh;
+  const auto& [left, bottom] = sides_of(mesh);
   const double choice = draw.unit();
   if (choice < 0.25) {
     stress.constraints = "free";
   } else if (choice < 0.5) {
     stress.constraints = "clamped";
-    fix(left, Axis::both);
+    fix(scene, left, Axis::both);
   } else if (choice < 0.65) {
     stress.constraints = "rollers";
-    fix(left, Axis::x);
-    fix(bottom, Axis::y);
+    fix(scene, left, Axis::x);
+    fix(scene, bottom, Axis::y);
   } else if (choice < 0.75) {
     stress.constraints = "nearly all held";
     std::set<int> all;
     for (int i = 0; i + 1 < mesh.node_count(); ++i) all.insert(i);
-    fix(all, Axis::both);
+    fix(scene, all, Axis::both);
   } else {
     stress.constraints = "tied";
-    if (draw.chance(0.5)) fix(left, Axis::both);
+    if (draw.chance(0.5)) fix(scene, left, Axis::both);
     const int last = mesh.node_count() - 1;
     scene.constraints.push_back(
         {{{last, Axis::x, 1.0}, {last - 1, Axis::y, draw.decades(0.1, 10)}}, 0.0, "tie"});
@@ -143,6 +169,63 @@ void constrain(Draw& draw, StressScene& stress) {
     scene.time.constraints = ConstraintMethod::baumgarte;
   }
   // From none to far beyond what any step takes.
+  scene.time.baumgarte = draw.chance(0.15) ? 0.0 : stress.frequency * draw.decades(1e-2, 1e3);
+}
+
+// More constraints than the body needs, by chance all that it can move by; those that say no more than the
+// others, or hardly more, are the redundant ones.
+void over_constrain(Draw& draw, StressScene& stress) {
+  Scene& scene = stress.scene;
+  const int last = scene.mesh.node_count() - 1;
+  const auto [left, bottom] = sides_of(scene.mesh);
+  const double c = draw.decades(0.1, 10), d = draw.decades(0.1, 10);
+  const Constraint tie{{{last, Axis::x, 1.0}, {last - 1, Axis::y, c}}, 0.0, "tie"};
+  const auto times = [](Constraint constraint, double factor) {
+    for (ConstraintTerm& term : constraint.terms) term.coefficient *= factor;
+    return constraint;
+  };
+  switch (draw.below(6)) {
+    case 0:
+      stress.constraints = "over: fixed twice";
+      fix(scene, left, Axis::both);
+      fix(scene, left, Axis::x);
+      fix(scene, bottom, Axis::y);
+      fix(scene, {0, last}, Axis::y);
+      break;
+    case 1:
+      stress.constraints = "over: tied twice";
+      scene.constraints = {tie};
+      for (int copies = 1 + draw.below(3); copies > 0; --copies)
+        stress.redundant.push_back(times(tie, (draw.chance(0.5) ? 1 : -1) * draw.decades(1e-3, 1e3)));
+      break;
+    case 2:
+      stress.constraints = "over: held and tied";
+      fix(scene, left, Axis::both);
+      stress.redundant = {{{{*left.begin(), Axis::x, 1.0}, {*left.rbegin(), Axis::y, c}}, 0.0, "tie"}};
+      break;
+    case 3:
+      stress.constraints = "over: a loop";
+      scene.constraints = {{{{last, Axis::x, 1.0}, {last - 1, Axis::x, -c}}, 0.0, "tie"},
+                           {{{last - 1, Axis::x, 1.0}, {last - 2, Axis::x, -d}}, 0.0, "tie"}};
+      stress.redundant = {{{{last - 2, Axis::x, c * d}, {last, Axis::x, -1.0}}, 0.0, "tie"}};
+      break;
+    case 4: {
+      stress.constraints = "over: all freedoms";
+      const bool one_left = draw.chance(0.5);
+      for (int node = 0; node <= last; ++node) {
+        scene.constraints.push_back({{{node, Axis::x, draw.decades(0.1, 10)}}, 0.0, "grip"});
+        if (node < last || !one_left) scene.constraints.push_back({{{node, Axis::y, 1.0}}, 0.0, "grip"});
+      }
+      stress.redundant = {{{{0, Axis::x, c}, {last - 1, Axis::y, d}}, 0.0, "tie"}};
+      break;
+    }
+    default:
+      stress.constraints = "over: nearly alike";
+      scene.constraints = {tie};
+      stress.redundant = {tie};
+      stress.redundant[0].terms[1].coefficient *= 1.0 + draw.decades(1e-9, 0.1);
+  }
+  if (draw.chance(0.5)) scene.time.constraints = ConstraintMethod::baumgarte;
   scene.time.baumgarte = draw.chance(0.15) ? 0.0 : stress.frequency * draw.decades(1e-2, 1e3);
 }
 
@@ -168,11 +251,21 @@ StressScene stress_scene(std::uint64_t seed, int number) {
       scene.region_of_triangle.push_back(
           static_cast<std::int32_t>(t % scene.regions.size() + (t > 0 ? 1 : 0)) % (others + 1));
   }
+  // By turns, so that the other scenes are what they were.
+  const bool ratios = number % 5 == 1, over = number % 5 == 2;
+  Draw more((seed + 1) * 7000003u + static_cast<std::uint64_t>(number));
+  if (ratios) {
+    spread_ratios(more, scene.material);
+    for (Region& region : scene.regions) spread_ratios(more, region.material);
+  }
   const Moduli springs = scene.material.instantaneous();
   stress.frequency = std::sqrt((springs.lambda + 2 * springs.mu) / scene.material.density) / size;
   for (const Relaxation& each : relaxations_of(scene.material))
     stress.rate = std::max(stress.rate, each.rate);
-  constrain(draw, stress);
+  if (over)
+    over_constrain(more, stress);
+  else
+    constrain(draw, stress);
   scene.tractions.push_back({{scene.mesh.edge_groups.at("boundary")[static_cast<std::size_t>(draw.below(
                                  static_cast<int>(scene.mesh.edge_groups.at("boundary").size())))]},
                              {{0.0, {draw.decades(1e-6, 1e12), draw.decades(1e-6, 1e12)}}},

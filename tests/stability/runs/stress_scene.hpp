@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "rheo/scene.hpp"
 
@@ -14,6 +15,8 @@ struct StressScene {
   std::string mesh;      // "plain", "sliver", "graded", "disk", "triangle"
   std::string material;  // "branch", "branches", "whole", "regions"
   std::string constraints;
+  // Over and above the scene's own, which they do not contradict.
+  std::vector<Constraint> redundant;
   double frequency = 0.0;  // of the first material's springs over the body's size [1/s]
   double rate = 0.0;       // its fastest relaxation [1/s]
 };

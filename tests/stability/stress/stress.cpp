@@ -69,6 +69,8 @@ const char* name_of(rheo::test::Promise promise) {
       return "stable at 0.99 of the promise";
     case rheo::test::Promise::refused:
       return "refused at 1.05 of the true limit";
+    case rheo::test::Promise::named:
+      return "redundant constraints: told why";
     case rheo::test::Promise::noticed:
       return "allowed, noticed before it shows";
   }
@@ -77,7 +79,7 @@ const char* name_of(rheo::test::Promise promise) {
 
 struct Row {
   int scenes = 0, determined = 0, no_step = 0, grew = 0, broken = 0;
-  double lowest = 1e300, sum = 0.0, worst_energy = 0.0;
+  double lowest = 1e300, sum = 0.0, worst_energy = 0.0, first_energy = 0.0;
 
   void add(const StressOutcome& o) {
     ++scenes;
@@ -85,6 +87,7 @@ struct Row {
     broken += !o.broken.empty();
     no_step += o.predicted == 0.0;
     worst_energy = std::max(worst_energy, o.worst_energy);
+    first_energy = std::max(first_energy, o.first_energy);
     if (!o.truth.determined() || !std::isfinite(o.truth.low) || o.truth.low == 0.0) return;
     ++determined;
     lowest = std::min(lowest, o.predicted / o.truth.low);
@@ -123,13 +126,21 @@ int run(const Asked& a) {
            "broken\n";
   }
   std::map<std::string, std::map<rheo::test::Promise, int>> broken;
-  int broken_in_all = 0;
+  int broken_in_all = 0, redundant = 0, redundancies_refused = 0;
   for (int number = a.from; number < a.from + a.count; ++number) {
-    const StressScene scene = rheo::test::stress_scene(a.seed, number);
+    StressScene scene = rheo::test::stress_scene(a.seed, number);
+    const rheo::test::Redundancy redundancy = rheo::test::settle(scene);
+    redundant += redundancy.any;
+    redundancies_refused += redundancy.refused;
+    for (const rheo::test::Broken& each : redundancy.broken) {
+      ++broken["rk4"][each.promise], ++broken["euler"][each.promise];
+      ++broken_in_all;
+      fmt::print("broken: {} ({}): {}\n", number, scene.constraints, each.text);
+    }
     const rheo::test::TrueSpectrum truth(scene.scene);
     for (const IntegratorKind kind : {IntegratorKind::rk4, IntegratorKind::euler}) {
       const std::string name = kind == IntegratorKind::rk4 ? "rk4" : "euler";
-      const StressOutcome o = rheo::test::stress(scene, truth, kind, {a.steps, 20});
+      const StressOutcome o = rheo::test::stress(scene, truth, kind, {a.steps});
       rows[fmt::format("{:6} {:9} {}", name, "mesh", scene.mesh)].add(o);
       rows[fmt::format("{:6} {:9} {}", name, "material", scene.material)].add(o);
       rows[fmt::format("{:6} {:9} {}", name, "held", scene.constraints)].add(o);
@@ -153,15 +164,17 @@ int run(const Asked& a) {
     if (isatty(2) != 0) fmt::print(stderr, "\r{} of {}", number + 1 - a.from, a.count);
   }
   if (isatty(2) != 0) fmt::print(stderr, "\n");
-  fmt::print("{:36} {:>6} {:>10} {:>8} {:>8} {:>8} {:>12} {:>6} {:>7}\n", "predicted over true", "scenes",
-             "determined", "no step", "lowest", "mean", "energy/work", "grew", "broken");
+  fmt::print("{:36} {:>6} {:>10} {:>8} {:>8} {:>8} {:>12} {:>10} {:>6} {:>7}\n", "predicted over true", "scenes",
+             "determined", "no step", "lowest", "mean", "energy/work", "at first", "grew", "broken");
   for (const auto& [name, row] : rows)
-    fmt::print("{:36} {:6} {:10} {:8} {:8.4f} {:8.4f} {:12.9f} {:6} {:7}\n", name, row.scenes, row.determined,
+    fmt::print("{:36} {:6} {:10} {:8} {:8.4f} {:8.4f} {:12.9f} {:10.6f} {:6} {:7}\n", name, row.scenes, row.determined,
                row.no_step, row.determined > 0 ? row.lowest : 0.0,
-               row.determined > 0 ? row.sum / row.determined : 0.0, row.worst_energy, row.grew, row.broken);
+               row.determined > 0 ? row.sum / row.determined : 0.0, row.worst_energy, row.first_energy, row.grew, row.broken);
   fmt::print("\n{:36} {:>6} {:>6}\n", "broken promises", "rk4", "euler");
   for (const rheo::test::Promise promise : rheo::test::promises)
     fmt::print("{:36} {:6} {:6}\n", name_of(promise), broken["rk4"][promise], broken["euler"][promise]);
+  fmt::print("\nredundant constraints in {} scenes: refused, with the reason, in {}; taken in {}\n",
+             redundant, redundancies_refused, redundant - redundancies_refused);
 #ifdef RHEO_STRESS_MAP
   if (!a.map.empty()) draw_map(a.map, points);
 #else
