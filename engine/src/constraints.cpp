@@ -19,6 +19,8 @@ namespace {
 // A pivot of the Schur complement is the squared sine of the angle between a constraint and those before it
 // (relative to its diagonal); below this it is rounding.
 constexpr double dependent_pivot = 1e-11;
+// Below this rounding in the multipliers shows (eps over the pivot) and is solved for once more.
+constexpr double weak_pivot = 1e-5;
 
 std::string describe(const Holder& holder) {
   return holder.where.empty() ? (holder.move ? "[[move]]" : "[[fix]]") : holder.where;
@@ -262,7 +264,9 @@ void ConstraintSolver::factor_schur(double memory) {
     const int j =
         schur_->permutationPinv().size() > 0 ? schur_->permutationPinv().indices()[k] : static_cast<int>(k);
     if (!(pivots_[k] > dependent_pivot * scale[j])) refuse_dependent(j);
+    if (pivots_[k] < weak_pivot * scale[j]) has_weak_pivots_ = true;
   }
+  residual_.setZero(size);
 }
 
 // What schur_->solve() does, in memory that stays.
@@ -344,16 +348,19 @@ void ConstraintSolver::solve(const Vector& r, Vector& a, const Vector& target, V
     }
   }
   if (columns_.empty()) return;
-  multipliers = target;
-  for (std::size_t j = 0; j < columns_.size(); ++j) multipliers[j] -= row_times(j, a.data());
-  solve_schur(multipliers);
-  work_.setZero();
-  for (std::size_t j = 0; j < columns_.size(); ++j) {
-    for (const auto& [dof, coefficient] : columns_[j].entries) work_[dof] += coefficient * multipliers[j];
+  multipliers.setZero(target.size());
+  for (int pass = 0; pass < (has_weak_pivots_ ? 2 : 1); ++pass) {
+    for (std::size_t j = 0; j < columns_.size(); ++j) residual_[j] = target[j] - row_times(j, a.data());
+    solve_schur(residual_);
+    multipliers += residual_;
+    work_.setZero();
+    for (std::size_t j = 0; j < columns_.size(); ++j) {
+      for (const auto& [dof, coefficient] : columns_[j].entries) work_[dof] += coefficient * residual_[j];
+    }
+    correction_.setZero();
+    apply_inverse_mass(work_, correction_);
+    a += correction_;
   }
-  correction_.setZero();
-  apply_inverse_mass(work_, correction_);
-  a += correction_;
 }
 
 }  // namespace rheo

@@ -94,7 +94,8 @@ class ConstraintSolver {
   std::unique_ptr<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>> schur_;
   mutable Vector work_, correction_;
   Vector pivots_;  // D of schur_
-  mutable Vector packed_, packed_multipliers_;
+  bool has_weak_pivots_ = false;
+  mutable Vector packed_, packed_multipliers_, residual_;
 };
 
 }  // namespace rheo
