@@ -164,12 +164,14 @@ int run(const Asked& a) {
     if (isatty(2) != 0) fmt::print(stderr, "\r{} of {}", number + 1 - a.from, a.count);
   }
   if (isatty(2) != 0) fmt::print(stderr, "\n");
-  fmt::print("{:36} {:>6} {:>10} {:>8} {:>8} {:>8} {:>12} {:>10} {:>6} {:>7}\n", "predicted over true", "scenes",
-             "determined", "no step", "lowest", "mean", "energy/work", "at first", "grew", "broken");
+  fmt::print("{:36} {:>6} {:>10} {:>8} {:>8} {:>8} {:>12} {:>10} {:>6} {:>7}\n", "predicted over true",
+             "scenes", "determined", "no step", "lowest", "mean", "energy/work", "at first", "grew",
+             "broken");
   for (const auto& [name, row] : rows)
-    fmt::print("{:36} {:6} {:10} {:8} {:8.4f} {:8.4f} {:12.9f} {:10.6f} {:6} {:7}\n", name, row.scenes, row.determined,
-               row.no_step, row.determined > 0 ? row.lowest : 0.0,
-               row.determined > 0 ? row.sum / row.determined : 0.0, row.worst_energy, row.first_energy, row.grew, row.broken);
+    fmt::print("{:36} {:6} {:10} {:8} {:8.4f} {:8.4f} {:12.9f} {:10.6f} {:6} {:7}\n", name, row.scenes,
+               row.determined, row.no_step, row.determined > 0 ? row.lowest : 0.0,
+               row.determined > 0 ? row.sum / row.determined : 0.0, row.worst_energy, row.first_energy,
+               row.grew, row.broken);
   fmt::print("\n{:36} {:>6} {:>6}\n", "broken promises", "rk4", "euler");
   for (const rheo::test::Promise promise : rheo::test::promises)
     fmt::print("{:36} {:6} {:6}\n", name_of(promise), broken["rk4"][promise], broken["euler"][promise]);
