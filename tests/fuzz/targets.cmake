@@ -23,7 +23,7 @@ set(engine_sources
 list(TRANSFORM engine_sources PREPEND "${engine}/src/")
 add_library(rheo_fuzz STATIC "${fuzz}/feed.cpp" ${engine_sources}
   "${app}/src/command_line.cpp" "${app}/src/command_options.cpp" "${app}/src/drawing_room.cpp"
-  "${app}/src/memory_need.cpp" "${app}/src/nearest.cpp"
+  "${app}/src/frame_outputs.cpp" "${app}/src/memory_need.cpp" "${app}/src/nearest.cpp"
   "${app}/src/option_values.cpp" "${app}/src/overrides.cpp")
 target_include_directories(rheo_fuzz PUBLIC "${fuzz}" "${engine}/include" "${engine}/src" "${app}/src")
 target_include_directories(rheo_fuzz SYSTEM PRIVATE ${TOMLPLUSPLUS_INCLUDE_DIR})
