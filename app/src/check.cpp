@@ -290,11 +290,11 @@ void print_cost(rheo::Simulation& simulation, Verdict verdict) {
         cost.seconds_per_step);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  const std::int64_t frames = frame_count(rheo::output_count(scene.time), scene.picture.every);
+  const std::int64_t shapes = most_kept(rheo::output_count(scene.time), scene.picture.every);
   const double per_node = scene.picture.color == rheo::ColorBy::none ? 8.0 : 12.0;
-  row("memory", "{:.0f} MB; render keeps {:.3g} MB more between its passes",
+  row("memory", "{:.0f} MB; render keeps up to {:.3g} MB more between its passes",
       static_cast<double>(usage.ru_maxrss) / 1024.0,
-      static_cast<double>(frames) * per_node * scene.mesh.node_count() / 1e6);
+      static_cast<double>(shapes) * per_node * scene.mesh.node_count() / 1e6);
 }
 
 void check_loaded(const Options& options, rheo::Scene scene) {

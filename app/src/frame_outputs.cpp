@@ -2,10 +2,16 @@
 
 #include <algorithm>
 
+#include "rheo/scene.hpp"
+
 namespace app {
 
 std::int64_t frame_count(std::int64_t outputs, int every) {
   return outputs > 0 ? (outputs - 2 + every) / every + 1 : 0;
+}
+
+std::int64_t most_kept(std::int64_t outputs, int every) {
+  return std::min(outputs, frame_count(outputs, every) + static_cast<std::int64_t>(rheo::most_sheet_times));
 }
 
 std::int64_t frame_output(std::int64_t frame, std::int64_t outputs, int every) {

@@ -13,6 +13,9 @@ namespace app {
 // How many frames so many outputs have.
 std::int64_t frame_count(std::int64_t outputs, int every);
 
+// How many outputs' shapes are kept at most: those of the frames and of the sheet.
+std::int64_t most_kept(std::int64_t outputs, int every);
+
 // The output of a frame, of which there are frame_count().
 std::int64_t frame_output(std::int64_t frame, std::int64_t outputs, int every);
 

@@ -28,9 +28,8 @@ double need_of_command(const rheo::Scene& scene, const Options& options) {
     need += pixels * (rheo::bytes_a_pixel + 8.0 * (options.threads - 2)) + rheo::bytes_an_output * outputs;
     // Beyond this the recorded outputs go to a file (frame_store.hpp).
     constexpr double kept = 256.0 * 1024.0 * 1024.0;
-    const std::int64_t frames = frame_count(rheo::output_count(scene.time), scene.picture.every);
-    const double shapes = static_cast<double>(frames) + static_cast<double>(rheo::most_sheet_times);
-    need += std::min(kept, std::min(shapes, outputs) * nodes * 12.0);
+    const std::int64_t shapes = most_kept(rheo::output_count(scene.time), scene.picture.every);
+    need += std::min(kept, static_cast<double>(shapes) * nodes * 12.0);
   }
   // The exact states at all outputs, and others to check them by.
   if (options.command == Command::bench) need += 2.0 * 64.0 * nodes * outputs;

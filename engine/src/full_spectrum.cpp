@@ -89,8 +89,8 @@ MatrixR free_directions(const MatrixR& unroot, const MatrixR& columns) {
 
 }  // namespace
 
-std::vector<std::complex<double>> full_spectrum(const Model& model, const ConstraintSolver& solver,
-                                                int most) {
+std::optional<std::vector<std::complex<double>>> full_spectrum(const Model& model,
+                                                               const ConstraintSolver& solver, int most) {
   const auto size = static_cast<Eigen::Index>(model.layout.part);
   std::vector<Eigen::Index> free;
   for (Eigen::Index dof = 0; dof < size; ++dof) {
@@ -106,10 +106,10 @@ std::vector<std::complex<double>> full_spectrum(const Model& model, const Constr
   const auto n = static_cast<Eigen::Index>(free.size());
   // (No constraint depends on others, or the solver would have refused it.)
   const Eigen::Index directions = n - static_cast<Eigen::Index>(solver.columns().size());
-  if (directions <= 0) return {};
+  if (directions <= 0) return std::vector<std::complex<double>>();
   Eigen::Index expected = directions;
   for (const SharedRelaxation& each : relaxations) expected += expected_rows(model, each.moduli, directions);
-  if (expected > most) return {};
+  if (expected > most) return std::nullopt;
 
   std::vector<Eigen::Index> place(static_cast<std::size_t>(size), -1);
   for (Eigen::Index i = 0; i < n; ++i) place[static_cast<std::size_t>(free[i])] = i;
@@ -131,7 +131,7 @@ std::vector<std::complex<double>> full_spectrum(const Model& model, const Constr
     return MatrixR((result + result.transpose()) / 2);
   };
   const Symmetric mass(dense([&] { model.multiply_mass(unit.data(), image.data()); }));
-  if (mass.info() != Eigen::Success) return {};
+  if (mass.info() != Eigen::Success) return std::nullopt;
   const MatrixR unroot = mass.operatorInverseSqrt();
   const MatrixR to_v = unroot * free_directions(unroot, columns);
   Roots roots;
@@ -140,7 +140,7 @@ std::vector<std::complex<double>> full_spectrum(const Model& model, const Constr
     for (const bool is_lambda : {true, false}) {
       MatrixR& root = (is_lambda ? roots.lambda : roots.mu).emplace_back();
       one[r] = {is_lambda ? 1.0 : 0.0, is_lambda ? 0.0 : 1.0};
-      if (!root_of(dense([&] { image = model.stiffness(one, unit); }), root)) return {};
+      if (!root_of(dense([&] { image = model.stiffness(one, unit); }), root)) return std::nullopt;
       root = root * to_v;
     }
     one[r] = {};
@@ -152,7 +152,7 @@ std::vector<std::complex<double>> full_spectrum(const Model& model, const Constr
     all += couplings.back().rows();
   }
   const bool damped = model.has_viscous_part();
-  if (all > most || all == 0 || (all == to_v.cols() && !damped)) return {};
+  if (all > most || all == 0 || (all == to_v.cols() && !damped)) return std::nullopt;
 
   MatrixR full = MatrixR::Zero(all, all);
   if (damped) {
@@ -168,7 +168,7 @@ std::vector<std::complex<double>> full_spectrum(const Model& model, const Constr
     at += rows;
   }
   const Eigen::EigenSolver<MatrixR> solved(full, false);
-  if (solved.info() != Eigen::Success) return {};
+  if (solved.info() != Eigen::Success) return std::nullopt;
   const auto& found = solved.eigenvalues();
   const Real largest = found.cwiseAbs().maxCoeff();
   std::vector<std::complex<double>> values;

@@ -15,11 +15,13 @@
 //
 // Source   design: full operator where rates matter; Eigen's QR algorithm for the eigenvalues
 // Units    eigenvalues [1/s]
-// Errors   none: empty beyond `most` eigenvalues, where QR iteration does not end, or where nothing is free
-// or stiff
+// Errors   none: nullopt beyond `most` eigenvalues, where QR iteration does not end, or where nothing is
+// stiff;
+//          empty where nothing is free
 #pragma once
 
 #include <complex>
+#include <optional>
 #include <vector>
 
 #include "constraints.hpp"
@@ -29,7 +31,8 @@ namespace rheo {
 
 inline constexpr int most_eigenvalues = 300;
 
-std::vector<std::complex<double>> full_spectrum(const Model& model, const ConstraintSolver& solver,
-                                                int most = most_eigenvalues);
+std::optional<std::vector<std::complex<double>>> full_spectrum(const Model& model,
+                                                               const ConstraintSolver& solver,
+                                                               int most = most_eigenvalues);
 
 }  // namespace rheo

@@ -21,7 +21,8 @@ std::complex<double> sharpened_root(std::complex<double> s, std::span<const Mode
     moved = std::abs(step) / std::abs(root);
   }
   // Else far from quadratic convergence, as at pairs that are one real root but for rounding.
-  if (moved < 1e-12 && root.real() < 0.0) return root;
+  const bool is_pair = root.imag() * s.imag() > 0.0 && std::abs(root.imag()) > 1e-9 * std::abs(root);
+  if (moved < 1e-12 && is_pair) return {std::min(root.real(), 0.0), root.imag()};
   return {std::min(s.real(), 0.0), s.imag()};
 }
 

@@ -6,6 +6,10 @@
 // on which Euler's limit hangs, may be far below that. Newton's steps on the equation itself keep the real
 // part's own digits, since real and imaginary parts are added up apart.
 //
+// There is one such pair at most: with k springs the equation has k + 1 roots, and on the real axis one lies
+// between each two neighbouring rates. Hence what Newton's steps come to in the same half plane is the root
+// that was meant.
+//
 // Units    [1/s], springs [1/s^2]
 // Errors   none
 #pragma once

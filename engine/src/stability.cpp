@@ -388,7 +388,6 @@ double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
   }
   // Between the samples the limit moves by less than this (checked against exact spectra in the tests).
   step *= 0.998;
-  // Both are safe.
   if (!spectrum.eigenvalues.empty()) {
     double exact = step_of_eigenvalues(spectrum.eigenvalues, integrator);
     // What was left at nodes that are held now decays by its rate alone.
@@ -396,6 +395,7 @@ double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
       if (each.rate > 0.0) exact = std::min(exact, stable_step_of(-each.rate, integrator));
     for (const double rate : {p, q})
       if (rate > 0.0) exact = std::min(exact, stable_step_of(-rate, integrator));
+    // Where damping is lost in what rounding may have made of the eigenvalues, the samples know more of it.
     step = std::max(step, 0.998 * exact);
   }
   // The double pole of a constraint: at the very edge it grows linearly, hence strictly inside.

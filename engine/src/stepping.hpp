@@ -56,7 +56,6 @@ class Stepping {
   // Whether the quadrature over a step gives all of the work, and of what is dissipated.
   bool books_work() const;
   bool has_constant_loads() const;
-  bool is_loaded() const;
   bool is_beyond_limit() const { return limits_.bound > limits_.stable; }  // as the user allowed
   double explained_energy() const;
   double cancelled_way();
@@ -93,9 +92,10 @@ class Stepping {
   Holds holds_;
   Hands* hands_ = nullptr;
   Interval interval_, next_;
-  // The energy and the book when it began.
+  // The energy and the book when it began; and what its loads' work can be late by, as Euler's is: by a step.
   struct Begun {
     double energy = 0.0, work = 0.0, turnover = 0.0, net_turnover = 0.0;
+    double late = 0.0;
   } begun_;
   bool entered_ = false;
   std::size_t index_ = 0;

@@ -69,7 +69,7 @@ TEST(Rest, AHandWakesExactly) {
   settings.handles.push_back({"hand", {}, scene.mesh.edge_groups.at("right")});
   Live live(scene, settings);
   const auto tick_until = [&](double t) {
-    while (live.time() < t - 1e-9) ASSERT_FALSE(live.tick());
+    while (live.time() < t - 0.5 / settings.rate && !HasFailure()) EXPECT_FALSE(live.tick());
   };
   const auto at_rest = [&] { return live.simulation().counters().steps_at_rest; };
   tick_until(28.0);

@@ -9,11 +9,15 @@ namespace {
 
 class Stress : public testing::TestWithParam<IntegratorKind> {};
 
+StressScene settled_scene(int number) {
+  StressScene scene = stress_scene(1, number);
+  for (const Broken& each : settle(scene).broken) ADD_FAILURE() << number << ": " << each.text;
+  return scene;
+}
+
 TEST_P(Stress, NoPromiseIsBroken) {
   for (int number = 0; number < 40; ++number) {
-    StressScene scene = stress_scene(1, number);
-    const Redundancy redundancy = settle(scene);
-    for (const Broken& each : redundancy.broken) ADD_FAILURE() << number << ": " << each.text;
+    const StressScene scene = settled_scene(number);
     const StressOutcome outcome = stress(scene, TrueSpectrum(scene.scene), GetParam(), {2000, 100, 20});
     for (const Broken& each : outcome.broken)
       ADD_FAILURE() << number << " (" << scene.mesh << ", " << scene.material << ", " << scene.constraints
@@ -26,8 +30,7 @@ TEST_P(Stress, NoPromiseIsBroken) {
 // that constraints cancel, whose turnover excused what grew.
 TEST(StressOfRk4, NoPromiseIsBrokenWhereOneWas) {
   for (const int number : {1405, 1625, 1629, 2309, 208, 555}) {
-    StressScene scene = stress_scene(1, number);
-    settle(scene);
+    const StressScene scene = settled_scene(number);
     const StressOutcome outcome = stress(scene, TrueSpectrum(scene.scene), IntegratorKind::rk4);
     for (const Broken& each : outcome.broken) ADD_FAILURE() << number << ": " << each.text;
   }
@@ -38,8 +41,7 @@ TEST(StressOfRk4, NoPromiseIsBrokenWhereOneWas) {
 // constraint's own unstable pole, that the work excused (557).
 TEST(StressOfEuler, NoPromiseIsBrokenWhereOneWas) {
   for (const int number : {6, 47, 261, 447, 531, 557}) {
-    StressScene scene = stress_scene(1, number);
-    settle(scene);
+    const StressScene scene = settled_scene(number);
     const StressOutcome outcome = stress(scene, TrueSpectrum(scene.scene), IntegratorKind::euler);
     for (const Broken& each : outcome.broken) ADD_FAILURE() << number << ": " << each.text;
   }

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "rheo/error.hpp"
@@ -13,8 +14,10 @@
 namespace app::view {
 namespace {
 
-// A session has an output a tick, of 1 ms: 50 frames a second of them.
-constexpr int session_every = 20;
+// A session has an output a tick: some 50 frames a second of them.
+int session_every(double ticks_a_second) {
+  return std::max(1, static_cast<int>(std::lround(ticks_a_second / 50.0)));
+}
 
 }  // namespace
 
@@ -87,7 +90,7 @@ void Ui::save_session() {
       scene->picture.arrow_scale = seen.arrow_scale;
       scene->picture.range_auto = seen.range_auto;
       scene->picture.range = seen.range;
-      scene->picture.every = session_every;
+      scene->picture.every = session_every(core.rate());
       const std::string hash = state_hash(core.live().simulation());
       try {
         core.say(Recording(folder).text_file(

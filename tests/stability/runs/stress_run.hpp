@@ -13,10 +13,10 @@ namespace rheo::test {
 enum class Promise {
   limit,     // no step beyond the true limit is called stable
   nearness,  // what is called stable is 95 % of the true limit at least
-  stable,   // at 0.99 of it nothing is taken for a divergence or grows beyond the work, by Euler beyond 1.002
-  refused,  // 1.05 of the true limit is refused
-  named,    // of redundant constraints it is said that they are, or they are taken and the rest is kept
-  noticed   // allowed, it ends in a divergence before a look shows more than 1.001 of the work
+  stable,    // at 0.99 of it nothing is taken for a divergence or grows beyond the work, by Euler beyond 1.03
+  refused,   // 1.05 of the true limit is refused
+  named,     // of redundant constraints it is said that they are, or they are taken and the rest is kept
+  noticed    // allowed, it ends in a divergence before a look shows more than 1.04 of the work
 };
 inline constexpr Promise promises[] = {Promise::limit,   Promise::nearness, Promise::stable,
                                        Promise::refused, Promise::named,    Promise::noticed};

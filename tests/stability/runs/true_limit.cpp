@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <complex>
 #include <limits>
 #include <vector>
@@ -54,22 +55,42 @@ MatrixR constraint_columns(const Scene& scene, Eigen::Index size) {
   return all;
 }
 
-// The rows of J^1/2 that are not zero.
-MatrixR root_of(const Eigen::MatrixXd& j) {
-  const Symmetric solver(j.cast<Real>());
-  const Real largest = solver.eigenvalues().maxCoeff();
-  std::vector<Eigen::Index> kept;  // J was summed up in double
-  for (Eigen::Index i = 0; i < j.rows(); ++i)
-    if (solver.eigenvalues()[i] > 1e-13L * largest) kept.push_back(i);
-  MatrixR root(static_cast<Eigen::Index>(kept.size()), j.cols());
-  for (std::size_t i = 0; i < kept.size(); ++i)
-    root.row(static_cast<Eigen::Index>(i)) =
-        std::sqrt(solver.eigenvalues()[kept[i]]) * solver.eigenvectors().col(kept[i]).transpose();
-  return root;
+// J^1/2 by the strains of each triangle, J = sum of A t e^T e: exact but for long double's rounding, where a
+// sum made in double and its root are not. As few rows as have its rank.
+MatrixR root_of(const Mesh& mesh, bool is_lambda) {
+  MatrixR strains = MatrixR::Zero(3 * mesh.triangle_count(), 2 * mesh.node_count());
+  Eigen::Index row = 0;
+  for (const auto& triangle : mesh.triangles) {
+    std::array<Real, 3> x{}, y{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      x[k] = mesh.points[static_cast<std::size_t>(triangle[k])].x;
+      y[k] = mesh.points[static_cast<std::size_t>(triangle[k])].y;
+    }
+    const Real doubled = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
+    const Real size = std::sqrt(doubled / 2 * static_cast<Real>(mesh.thickness)),
+               twice = std::sqrt(Real{2}) * size;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Real b = (y[(k + 1) % 3] - y[(k + 2) % 3]) / doubled,
+                 c = (x[(k + 2) % 3] - x[(k + 1) % 3]) / doubled;
+      const Eigen::Index u = 2 * triangle[k], v = u + 1;
+      if (is_lambda) {
+        strains(row, u) = size * b, strains(row, v) = size * c;
+      } else {
+        strains(row, u) = twice * b, strains(row + 1, v) = twice * c;
+        strains(row + 2, u) = size * c, strains(row + 2, v) = size * b;
+      }
+    }
+    row += is_lambda ? 1 : 3;
+  }
+  Eigen::ColPivHouseholderQR<MatrixR> qr(strains.topRows(row));
+  qr.setThreshold(1e-15L);
+  const MatrixR top = qr.matrixR().topRows(qr.rank()).template triangularView<Eigen::Upper>();
+  return top * qr.colsPermutation().transpose();
 }
 
 Operator operator_of(const Scene& scene) {
   std::vector<DenseMatrices> by_region;
+  std::vector<Mesh> parts;
   for (std::size_t r = 0; r <= scene.regions.size(); ++r) {
     Mesh part = scene.mesh;
     part.triangles.clear();
@@ -79,6 +100,7 @@ Operator operator_of(const Scene& scene) {
       if (of == r) part.triangles.push_back(scene.mesh.triangles[t]);
     }
     by_region.push_back(dense_matrices(part, material_of(scene, r)));
+    parts.push_back(std::move(part));
   }
   Eigen::MatrixXd mass = by_region[0].mass;
   for (std::size_t r = 1; r < by_region.size(); ++r) mass += by_region[r].mass;
@@ -102,9 +124,8 @@ Operator operator_of(const Scene& scene) {
   for (std::size_t r = 0; r < by_region.size(); ++r) {
     const Material& material = material_of(scene, r);
     for (const bool is_lambda : {true, false}) {
-      const Eigen::MatrixXd& j = is_lambda ? by_region[r].j_lambda : by_region[r].j_mu;
-      if (j.norm() == 0.0) continue;
-      const MatrixR root = root_of(j) * to_v;
+      if (parts[r].triangles.empty()) continue;
+      const MatrixR root = root_of(parts[r], is_lambda) * to_v;
       const auto add = [&](double ela, double rate) {
         if (ela > 0.0) op.branches.push_back({std::sqrt(static_cast<Real>(ela)) * root, rate});
       };

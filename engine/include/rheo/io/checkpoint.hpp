@@ -22,7 +22,7 @@
 
 namespace rheo {
 
-inline constexpr std::uint32_t checkpoint_version = 1;
+inline constexpr std::uint32_t checkpoint_version = 2;
 
 struct Checkpoint {
   std::filesystem::path file;  // for messages
