@@ -5,6 +5,7 @@
 #include <string>
 
 #include "program.hpp"
+#include "rheo/scene.hpp"
 
 namespace app_tests {
 namespace {
