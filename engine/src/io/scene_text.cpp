@@ -13,6 +13,7 @@ namespace rheo {
 namespace {
 
 std::string number(double x) {
+  if (x == 0.0 && std::signbit(x)) return "-0.0";  // "-0" would be a whole number, which has no sign
   return std::isinf(x) ? (x > 0 ? "inf" : "-inf") : fmt::format("{:.17g}", x);
 }
 
