@@ -9,9 +9,9 @@ build_packages="g++ cmake ninja-build pkgconf libeigen3-dev libtomlplusplus-dev 
 # To draw: OpenGL in software and windows, opened when wanted.
 draw_packages="libosmesa6 libglfw3"
 
-# To test: the test frameworks, EGL as the second way to draw, a reader of ParaView's files, a display with a small
+# To test: the test frameworks, Arnoldi's process for large operators, EGL as the second way to draw, a reader of ParaView's files, a display with a small
 # window manager and a hand, and a second compiler with sanitizers and a fuzzer.
-test_packages="libgtest-dev libgmock-dev libbenchmark-dev libegl1 libgl1-mesa-dri python3-meshio
+test_packages="libgtest-dev libgmock-dev libbenchmark-dev libspectra-dev libegl1 libgl1-mesa-dri python3-meshio
   xvfb twm xdotool imagemagick clang-14 libclang-rt-14-dev libomp-14-dev"
 
 # install_missing PACKAGE...: says what is missing and installs that, as root or with sudo.

@@ -1,19 +1,19 @@
 #include "lanczos.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace rheo {
 namespace {
 
-// Residual of the squared frequency at which to stop: half of it remains in the frequency.
-constexpr double wanted_residual = 0.01;
-constexpr double exhausted = 1e-6;  // of the largest diagonal entry
-constexpr int most_steps = 400;
-constexpr int fewest_steps = 16;  // before this a Ritz value may sit on a lower eigenvalue by chance
+constexpr double misses = 1e-8;  // probability that a lowest eigenvalue is lower than its bound
+// The same of the largest frequency; and by how much of itself its square may be too large.
+constexpr double frequency_misses = 1e-4;
+constexpr double excess = 0.015;
+// Residuals, of the largest diagonal entry: one that no longer counts for the largest value, and for any.
+constexpr double exhausted = 1e-6, rounded = 1e-13;
 
 // Numbers in [-1, 1) that are the same everywhere (splitmix64).
 double pseudo_random(std::uint64_t& state) {
@@ -24,45 +24,70 @@ double pseudo_random(std::uint64_t& state) {
   return static_cast<double>(static_cast<std::int64_t>(z ^ (z >> 31))) * 0x1p-63;
 }
 
-struct RitzPair {
-  double value = 0.0;
-  double last = 0.0;  // size of the vector's last component
-};
-
-// Largest eigenvalue of a tridiagonal matrix without negative ones.
-RitzPair largest_pair(const Eigen::Ref<const Vector>& diagonal, const Eigen::Ref<const Vector>& off) {
+// The largest eigenvalue of the tridiagonal matrix, from above, to 1e-12 of its entries: bisection by the
+// signs of its pivots. (QR iteration for all of them takes longer, and does not always end where the entries
+// span many decades.)
+double largest_value(const Eigen::Ref<const Vector>& diagonal, const Eigen::Ref<const Vector>& off,
+                     double sign) {
   const Eigen::Index k = diagonal.size();
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(diagonal, off);
-  if (solver.info() == Eigen::Success)
-    return {solver.eigenvalues()[k - 1], std::abs(solver.eigenvectors()(k - 1, k - 1))};
-  // QR iteration does not always end where the entries span many decades, and leaves the values unsorted.
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(k, k);
-  dense.diagonal() = diagonal;
-  if (k > 1) dense.diagonal<1>() = dense.diagonal<-1>() = off;
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(dense, Eigen::ComputeFullU);
-  return {svd.singularValues()[0], std::abs(svd.matrixU()(k - 1, 0))};
+  double low = sign * diagonal[0], high = low;
+  for (Eigen::Index i = 0; i < k; ++i) {
+    const double around = (i > 0 ? off[i - 1] : 0.0) + (i + 1 < k ? off[i] : 0.0);
+    low = std::max(low, sign * diagonal[i]);
+    high = std::max(high, sign * diagonal[i] + around);
+  }
+  const auto is_above_all = [&](double x) {
+    double pivot = sign * diagonal[0] - x;
+    for (Eigen::Index i = 1; pivot < 0.0 && i < k; ++i)
+      pivot = sign * diagonal[i] - x - off[i - 1] * off[i - 1] / pivot;
+    return pivot < 0.0;
+  };
+  const double enough = 1e-12 * std::max(std::abs(low), std::abs(high));
+  while (high - low > enough) {
+    const double middle = 0.5 * (low + high);
+    (is_above_all(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+// Its eigenvector of the lowest eigenvalue, which is hardly above `value`: inverse iteration, of unit length.
+Vector lowest_share(const Vector& diagonal, const Vector& off, double value) {
+  const Eigen::Index k = diagonal.size();
+  const double shift = value - 1e-11 * (diagonal.cwiseAbs().maxCoeff() + (k > 1 ? off.maxCoeff() : 0.0));
+  Vector pivot(k), x = Vector::Ones(k);
+  for (Eigen::Index i = 0; i < k; ++i)
+    pivot[i] = diagonal[i] - shift - (i > 0 ? off[i - 1] * off[i - 1] / pivot[i - 1] : 0.0);
+  for (int times = 0; times < 4; ++times) {
+    for (Eigen::Index i = 1; i < k; ++i) x[i] -= off[i - 1] / pivot[i - 1] * x[i - 1];
+    x.array() /= pivot.array();
+    for (Eigen::Index i = k - 1; i > 0; --i) x[i - 1] -= off[i - 1] / pivot[i - 1] * x[i];
+    x /= x.norm();
+  }
+  return x;
+}
+
+// (2 k - 1) sqrt(e) of lanczos.hpp.
+double unlikely(double size, double probability) {
+  return std::log(1.648 * std::sqrt(size) / probability);
+}
+
+// How many steps leave at most this part of the spread unresolved.
+int steps_for(double part, double size, double probability) {
+  return static_cast<int>(std::ceil(0.5 * (unlikely(size, probability) / std::sqrt(part) + 1.0)));
 }
 
 }  // namespace
 
-RitzBound largest_frequency(const Model& model, const ConstraintSolver& solver,
-                            const std::vector<Moduli>& moduli) {
+LanczosRun::LanczosRun(const Model& model, const ConstraintSolver& solver, const std::vector<Moduli>& moduli)
+    : model_(model), solver_(solver), moduli_(moduli) {
   const auto size = static_cast<Eigen::Index>(model.layout.part);
   std::size_t free = 0;
   for (std::size_t dof = 0; dof < model.layout.part; ++dof) free += solver.is_free(dof) ? 1 : 0;
-  if (free <= solver.columns().size()) return {};  // what a projection leaves is rounding
-  const Vector target = Vector::Zero(static_cast<Eigen::Index>(solver.columns().size()));
-  Vector multipliers = target;
-  Vector mass_times(size);
-  const auto project = [&](const Vector& r, Vector& out) {
-    out.setZero(size);
-    solver.solve(r, out, target, multipliers);
-  };
-  const auto norm = [&](const Vector& x) {
-    model.multiply_mass(x.data(), mass_times.data());
-    return std::sqrt(x.dot(mass_times));
-  };
+  if (free <= solver.columns().size()) return;  // what a projection leaves is rounding
+  dimension_ = static_cast<int>(free - solver.columns().size());
+  target_ = Vector::Zero(static_cast<Eigen::Index>(solver.columns().size()));
+  multipliers_ = target_;
+  mass_times_.resize(size);
 
   // M q with as much of q at each node, in the norm of M, be it ever so light: the fastest modes live on the
   // smallest triangles, and what the start hardly has may be taken for exhausted.
@@ -73,43 +98,107 @@ RitzBound largest_frequency(const Model& model, const ConstraintSolver& solver,
                    ? pseudo_random(seed) * std::sqrt(model.node_mass[i / 2])
                    : 0.0;
   }
-  Vector q(size), previous = Vector::Zero(size), next(size);
-  project(start, q);
-  double beta = norm(q);
-  RitzBound result;
-  if (!(beta > 0.0)) return result;
-  q /= beta;
-  beta = 0.0;
+  project(start, next_);
+  beta_ = norm(next_);
+  started_ = beta_ > 0.0;
+  previous_ = before_ = Vector::Zero(size);
+}
 
-  std::vector<double> alphas, betas;
-  for (int k = 1; k <= most_steps; ++k) {
-    project(model.stiffness(moduli, q), next);
-    model.multiply_mass(q.data(), mass_times.data());
-    const double alpha = next.dot(mass_times);
-    next -= alpha * q + beta * previous;
-    alphas.push_back(alpha);
-    beta = norm(next);
-    result.steps = k;
+void LanczosRun::project(const Vector& r, Vector& out) {
+  out.setZero(r.size());
+  solver_.solve(r, out, target_, multipliers_);
+}
 
-    double largest = 0.0;
-    for (double a : alphas) largest = std::max(largest, std::abs(a));
-    // The start's whole subspace is found, but for a residual that no longer counts. (Going on would be along
-    // rounding, which the constraints do not hold.)
-    const bool invariant = !(beta > exhausted * largest);
-    if (invariant || k == most_steps || (k >= fewest_steps && k % 4 == 0)) {
-      const Eigen::Map<const Vector> diagonal(alphas.data(), k);
-      const Eigen::Map<const Vector> off(betas.data(), k - 1);
-      const RitzPair ritz = largest_pair(diagonal, off);
-      const double theta = std::max(0.0, ritz.value);
-      const double residual = 1e-12 * theta + beta * ritz.last;
-      result.omega = std::sqrt(theta + residual);
-      if (invariant || residual <= wanted_residual * theta) break;
-    }
-    betas.push_back(beta);
-    previous = q;
-    q = next / beta;
+double LanczosRun::norm(const Vector& x) {
+  model_.multiply_mass(x.data(), mass_times_.data());
+  return std::sqrt(x.dot(mass_times_));
+}
+
+Eigen::Map<const Vector> LanczosRun::diagonal() const {
+  return {diagonal_.data(), static_cast<Eigen::Index>(diagonal_.size())};
+}
+
+Eigen::Map<const Vector> LanczosRun::off_diagonal() const {
+  return {off_.data(), static_cast<Eigen::Index>(off_.size())};
+}
+
+void LanczosRun::step() {
+  before_.swap(previous_);
+  previous_ = next_ / beta_;
+  if (!diagonal_.empty()) off_.push_back(beta_);
+  project(model_.stiffness(moduli_, previous_), next_);
+  model_.multiply_mass(previous_.data(), mass_times_.data());
+  const double alpha = next_.dot(mass_times_);
+  next_ -= alpha * previous_ + (off_.empty() ? 0.0 : beta_) * before_;
+  diagonal_.push_back(alpha);
+  largest_ = std::max(largest_, std::abs(alpha));
+  beta_ = norm(next_);
+  if (!is_exhausted(exhausted) || !(beta_ > 0.0)) return;
+  // What is left may be rounding in good part, which the constraints do not hold.
+  const Vector left = mass_times_;
+  project(left, next_);
+  beta_ = norm(next_);
+}
+
+RitzBound largest_frequency(const Model& model, const ConstraintSolver& solver,
+                            const std::vector<Moduli>& moduli) {
+  LanczosRun run(model, solver, moduli);
+  if (!run.has_started()) return {};
+  const auto size = static_cast<double>(model.layout.part);
+  const int wanted = steps_for(excess / (1.0 + excess), size, frequency_misses);
+  bool is_whole = false;
+  while (!is_whole && run.steps() < wanted) {
+    run.step();
+    // As many steps as there is space for; where rounding has begun it anew, the ends were found before.
+    is_whole = run.is_exhausted(exhausted) || run.steps() == run.dimension();
+  }
+  const double theta = std::max(0.0, largest_value(run.diagonal(), run.off_diagonal(), 1.0));
+  return {std::sqrt((1.0 + (is_whole ? exhausted : excess)) * theta), run.steps()};
+}
+
+LowestValue lowest_value(const Model& model, const ConstraintSolver& solver,
+                         const std::vector<Moduli>& moduli, double shift, int most_steps) {
+  LanczosRun run(model, solver, moduli);
+  LowestValue result;
+  const double chance = unlikely(static_cast<double>(model.layout.part), misses);
+  double before = std::numeric_limits<double>::infinity();
+  for (bool goes_on = run.has_started(); goes_on;) {
+    run.step();
+    goes_on = !run.is_exhausted(rounded);
+    const int k = run.steps();
+    if (goes_on && k < most_steps && k % 8 != 0) continue;
+    const double lowest = -largest_value(run.diagonal(), run.off_diagonal(), -1.0);
+    const double highest = largest_value(run.diagonal(), run.off_diagonal(), 1.0);
+    const double spread = highest - lowest;
+    const double resolved = chance / (2 * k - 1);
+    const double rounding = 2e-12 * std::max(std::abs(lowest), std::abs(highest));
+    result.ritz = lowest;
+    result.diagonal = run.diagonal();
+    result.off_diagonal = run.off_diagonal();
+    // Of the whole spread, of which the Ritz values may miss as much at the other end.
+    const double missed = resolved * resolved / std::max(1.0 - 2.0 * resolved * resolved, 0.1);
+    result.bound = lowest - rounding - (goes_on ? missed * spread : run.beta());
+    // Half of what there is, which leaves something for the neighbours.
+    if (result.bound + shift > 0.5 * (lowest + shift) && lowest + shift > 0.0) break;
+    // A negative one is a witness whatever its residual, and a better one where it is near.
+    if (lowest + shift < 0.0 && before - lowest <= 0.02 * std::abs(lowest + shift)) break;
+    before = lowest;
+    if (k == most_steps) break;
   }
   return result;
+}
+
+Vector lowest_vector(const Model& model, const ConstraintSolver& solver, const std::vector<Moduli>& moduli,
+                     const LowestValue& found) {
+  const Eigen::Index steps = found.diagonal.size();
+  const Vector share = lowest_share(found.diagonal, found.off_diagonal, found.ritz);
+  LanczosRun run(model, solver, moduli);
+  Vector x = Vector::Zero(static_cast<Eigen::Index>(model.layout.part));
+  for (Eigen::Index k = 0; k < steps; ++k) {
+    run.step();
+    x += share[k] * run.vector();
+  }
+  return x;
 }
 
 }  // namespace rheo

@@ -7,6 +7,7 @@
 
 #include "full_spectrum.hpp"
 #include "lanczos.hpp"
+#include "range_step.hpp"
 #include "step_choice.hpp"
 #include "timeline.hpp"
 
@@ -20,7 +21,7 @@ constexpr std::size_t spectra_taken = 8;   // beyond it the free body's frequenc
 
 }  // namespace
 
-Schedule::Schedule(const Scene& scene, const Model& model, double memory)
+Schedule::Schedule(const Scene& scene, const Model& model, double memory, Nearness nearness)
     : scene_(scene),
       model_(model),
       memory_(memory),
@@ -38,7 +39,7 @@ Schedule::Schedule(const Scene& scene, const Model& model, double memory)
     if (sets_.size() >= solvers_kept) made = {place->first, {}, nullptr};
     sets_.push_back(std::move(made));
   }
-  make_spectrum();
+  make_spectrum(nearness);
 }
 
 void load_pattern(const Mesh& mesh, std::span<const Edge> edges, LoadPattern& out) {
@@ -134,7 +135,7 @@ std::shared_ptr<const ConstraintSolver> Schedule::solver_holding(std::size_t i,
   return holding_.back().solver;
 }
 
-void Schedule::make_spectrum() {
+void Schedule::make_spectrum(Nearness nearness) {
   Spectrum& s = spectrum_;
   s.lambda_on = model_.layout.lambda;
   s.mu_on = model_.layout.mu;
@@ -209,6 +210,29 @@ void Schedule::make_spectrum() {
   s.viscous_max = std::min(damping, model_.element_viscous);
   if (!eigenvalues) s.eigenvalues.clear();
   if (has_columns(scene_)) s.baumgarte = scene_.time.baumgarte;
+  if (nearness == Nearness::near) find_range_step();
+}
+
+void Schedule::find_range_step() {
+  Spectrum& s = spectrum_;
+  const IntegratorKind integrator = scene_.time.integrator;
+  if (!stable_step_is_bound(s, integrator)) return;
+  // RK4's limit is omega_max's but for rates beside it.
+  if (integrator == IntegratorKind::rk4 &&
+      std::max(s.largest_rate(), s.viscous_max) <= rates_that_matter * s.omega_max)
+    return;
+  const double surely = stable_step(s, integrator);
+  if (scene_.time.step > 0.0 && scene_.time.step <= surely) return;
+  double step = std::numeric_limits<double>::infinity();
+  const auto include = [&](const ConstraintSolver& solver) {
+    if (step > surely) step = std::min(step, range_step(model_, solver, s, integrator, surely).step);
+  };
+  if (sets_.size() <= spectra_taken) {
+    for (const Held& set : sets_) include(*set.solver);
+  } else {
+    include(ConstraintSolver(model_, {}, {}));
+  }
+  if (step > surely) (integrator == IntegratorKind::rk4 ? s.rk4_step : s.euler_step) = step;
 }
 
 void Schedule::courses(const Signature& active, double inside,

@@ -31,7 +31,7 @@ void add_traction(Interval& interval, const LoadPattern& pattern, const std::arr
 class Schedule {
  public:
   // Both must outlive this. `memory`: of ConstraintSolver.
-  Schedule(const Scene& scene, const Model& model, double memory = 0.0);
+  Schedule(const Scene& scene, const Model& model, double memory = 0.0, Nearness nearness = Nearness::near);
 
   std::size_t interval_count() const { return events_.size(); }
   double begin(std::size_t i) const { return events_[i]; }
@@ -74,7 +74,8 @@ class Schedule {
     std::shared_ptr<const ConstraintSolver> solver;
   };
   Held make_held(const Signature& active) const;
-  void make_spectrum();
+  void make_spectrum(Nearness nearness);
+  void find_range_step();
 
   const Scene& scene_;
   const Model& model_;

@@ -43,7 +43,7 @@ struct Simulation::Impl {
         scene(decided(std::move(s), plan)),
         model(scene.mesh, regions_of(scene), assembly_for(scene, options.kernel)),
         asked(options),
-        schedule(scene, model, options.memory),
+        schedule(scene, model, options.memory, options.nearness),
         spectrum(schedule.spectrum()),
         body(make_body(scene, model, options.threads)),
         integrator(make_integrator(scene.time.integrator, body->size(),

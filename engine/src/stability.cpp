@@ -379,7 +379,7 @@ double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
         for (std::complex<double> s : mode_roots(omega * omega, a, p, q)) {
           // A real part that is rounding is none: the true one is never positive.
           const double floor = 1e-13 * fastest;
-          if (std::abs(s) <= floor) continue;
+          if (std::abs(s) <= floor || (rk4 && std::abs(s) * step < 0.99 * rk4_inner_radius)) continue;
           const ModeSpring springs[] = {{a * omega * omega, p}, {(1.0 - a) * omega * omega, q}};
           include(sharpened_root(s, springs, 0.0));
         }
@@ -398,6 +398,7 @@ double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
     // Where damping is lost in what rounding may have made of the eigenvalues, the samples know more of it.
     step = std::max(step, 0.998 * exact);
   }
+  step = std::max(step, rk4 ? spectrum.rk4_step : spectrum.euler_step);
   // The double pole of a constraint: at the very edge it grows linearly, hence strictly inside.
   if (spectrum.baumgarte > 0.0)
     step = std::min(step, 0.998 * stable_step_of(-spectrum.baumgarte * (1.0 + 1e-6), integrator));

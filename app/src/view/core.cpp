@@ -139,6 +139,7 @@ void Core::start(rheo::Scene scene, const rheo::SavedState* saved) {
   rheo::validate(scene);
   auto shared = std::make_shared<const rheo::Scene>(std::move(scene));
   rheo::LiveSettings settings = live_settings(settings_);
+  settings.simulation.nearness = rheo::Nearness::safe;  // made anew at every change
   const auto make = [&] {
     return saved ? std::make_unique<rheo::Live>(*shared, settings, *saved)
                  : std::make_unique<rheo::Live>(*shared, settings);

@@ -107,12 +107,17 @@ enum class Kernel {
   element  // by triangles, vectorised: lumped mass, fixed and moved nodes eliminated
 };
 
+// What an explicit integrator's stable limit is worth on bodies too large for all their eigenvalues, where it
+// hangs on more than omega_max: some hundred to thousand products with the connection matrices, or none.
+enum class Nearness { near, safe };
+
 struct SimulationOptions {
   bool allow_unstable = false;  // run a step beyond the stable limit instead of refusing it
   Kernel kernel = Kernel::automatic;
   bool energies = true;        // without: dissipated and work are not known (NaN), and a step costs less
   double stable_share = 0.25;  // of the stable limit: the largest step where the scene gives none
-  int threads = 0;             // of edge and element; 0: as many as pay. The result does not depend on it.
+  Nearness nearness = Nearness::near;
+  int threads = 0;      // of edge and element; 0: as many as pay. The result does not depend on it.
   double memory = 0.0;  // [bytes] that it may take (memory_need.hpp); 0: what this machine has available
   // Where the scene asks for an accuracy: told at each output which trial run of the choice (1, 2, ...) has
   // come how far (up to 1).

@@ -199,6 +199,15 @@ TrueLimit TrueSpectrum::limit(IntegratorKind integrator) const {
   return limit;
 }
 
+std::vector<std::complex<double>> TrueSpectrum::values() const {
+  std::vector<std::complex<double>> result;
+  for (const auto& s : values_) {
+    if (std::abs(s) > 10 * moved_)
+      result.emplace_back(static_cast<double>(s.real()), static_cast<double>(s.imag()));
+  }
+  return result;
+}
+
 TrueLimit true_limit(const Scene& scene, IntegratorKind integrator) {
   return TrueSpectrum(scene).limit(integrator);
 }

@@ -31,6 +31,8 @@ class TrueSpectrum {
  public:
   explicit TrueSpectrum(const Scene& scene);
   TrueLimit limit(IntegratorKind integrator) const;
+  // Of all motions that are stiff.
+  std::vector<std::complex<double>> values() const;
 
  private:
   std::vector<std::complex<long double>> values_;

@@ -1,0 +1,315 @@
+// Stable steps of bodies too large for all their eigenvalues, by the numerical range of the operator: against
+// all eigenvalues on small bodies, and against the outermost ones, by Arnoldi, on larger.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstdio>
+#include <limits>
+#include <random>
+
+#include "lanczos.hpp"
+#include "model.hpp"
+#include "range_step.hpp"
+#include "regions.hpp"
+#include "rheo/simulation.hpp"
+#include "schedule.hpp"
+#include "stability/runs/outer_limit.hpp"
+#include "stability/runs/true_limit.hpp"
+#include "support/exact.hpp"
+#include "support/sanitized.hpp"
+#include "support/scenes.hpp"
+#include "support/whole_materials.hpp"
+
+namespace rheo::test {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// Irregular, every third one free; of one or of two materials, these in turns or in halves.
+Scene random_body(std::mt19937& random, int k, int nx, int ny) {
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  Scene scene;
+  scene.mesh = rectangle({1.0, 0.3 + unit(random)}, nx, ny, Diagonal::alternating);
+  for (Vec2& p : scene.mesh.points) {
+    p.x += 0.1 * unit(random) / (nx - 1);
+    p.y += 0.05 * unit(random) / (ny - 1);
+  }
+  prepare(scene.mesh);
+  if (k % 3 != 0)
+    scene.fixes.push_back({nodes_of(scene.mesh.edge_groups.at("left")), Axis::both, {}, "left"});
+  const double frequency = 4.0 * (nx - 1);  // about that of the fastest vibrations
+  scene.material = random_material(random, 0.2, frequency, 30.0);
+  if (k % 4 < 2) {
+    const double contrast = std::pow(10.0, 2.0 * unit(random) - 1.0);
+    scene.regions = {{"other", random_material(random, 0.3, frequency * contrast, 30.0), {}, "other"}};
+    const int count = scene.mesh.triangle_count();
+    for (int e = 0; e < count; ++e) scene.region_of_triangle.push_back(k % 8 < 4 ? e % 2 : e < count / 2);
+  }
+  scene.time.duration = 1e-11;
+  scene.time.step = 1e-12;
+  return scene;
+}
+
+void set_mass(Scene& scene, Mass mass) {
+  scene.material.mass = mass;
+  for (Region& region : scene.regions) region.material.mass = mass;
+}
+
+// What the engine has of a scene, without its eigenvalues.
+struct Parts {
+  explicit Parts(const Scene& scene)
+      : model(scene.mesh, regions_of(scene)),
+        schedule(scene, model, 0.0, Nearness::safe),
+        solver(schedule.interval(0).solver),
+        spectrum(schedule.spectrum()) {
+    spectrum.eigenvalues.clear();
+  }
+
+  Model model;
+  Schedule schedule;
+  std::shared_ptr<const ConstraintSolver> solver;
+  Spectrum spectrum;
+};
+
+TEST(NumericalRange, LowestEigenvalueIsBetweenItsBoundAndTheRitzValue) {
+  std::mt19937 random(41);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int k = 0; k < 20; ++k) {
+    Scene scene = random_body(random, 2, 5, 4);
+    scene.material = paper_beam(Mass::lumped).material;  // one that needs both matrices
+    set_mass(scene, k % 2 == 0 ? Mass::lumped : Mass::consistent);
+    const Parts parts(scene);
+    const std::vector<Moduli> moduli{{unit(random), unit(random)}};
+    const DenseMatrices dense = dense_matrices(scene.mesh, scene.material);
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index i = 0; i < dense.mass.rows(); ++i)
+      if (parts.solver->is_free(static_cast<std::size_t>(i))) free.push_back(i);
+    const Eigen::MatrixXd j = moduli[0].lambda * dense.j_lambda + moduli[0].mu * dense.j_mu;
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> exact(j(free, free),
+                                                                          dense.mass(free, free));
+    const double lowest = exact.eigenvalues()[0];
+    const double spread = exact.eigenvalues().maxCoeff() - lowest;
+    for (const double shift : {0.0, -0.5 * lowest, -1.01 * lowest, -2.0 * lowest}) {
+      const LowestValue found = lowest_value(parts.model, *parts.solver, moduli, shift, 200);
+      EXPECT_LE(found.bound, lowest + 1e-12 * spread) << k;
+      EXPECT_GE(found.ritz, lowest - 1e-12 * spread) << k;
+      if (lowest + shift < -1e-6 * spread) {
+        EXPECT_LT(found.ritz + shift, 0.0) << k;
+      }
+      if (lowest + shift > 0.1 * spread) {
+        EXPECT_GT(found.bound + shift, 0.0) << k;
+      }
+      const Vector x = lowest_vector(parts.model, *parts.solver, moduli, found);
+      Vector mass_times(x.size());
+      parts.model.multiply_mass(x.data(), mass_times.data());
+      EXPECT_NEAR(x.dot(parts.model.stiffness(moduli, x)) / x.dot(mass_times), found.ritz, 1e-6 * spread);
+    }
+  }
+}
+
+TEST(NumericalRange, LargestFrequencyIsNeverBelowTheTruthAndNear) {
+  std::mt19937 random(40);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int k = 0; k < (is_sanitized ? 8 : 80); ++k) {
+    Scene scene = random_body(random, 2 + k % 2, 4 + k % 12, 3 + k % 7);
+    // Single modes on single triangles, of all depths below the rest.
+    const auto moved = static_cast<std::size_t>(unit(random) * scene.mesh.node_count());
+    scene.mesh.points[moved].x += 0.3 * unit(random) / (3 + k % 12);
+    prepare(scene.mesh);
+    scene.material = paper_beam(Mass::lumped).material;
+    set_mass(scene, k % 3 == 0 ? Mass::consistent : Mass::lumped);
+    const Parts parts(scene);
+    const DenseMatrices dense = dense_matrices(scene.mesh, scene.material);
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index i = 0; i < dense.mass.rows(); ++i)
+      if (parts.solver->is_free(static_cast<std::size_t>(i))) free.push_back(i);
+    const Moduli springs = scene.material.instantaneous();
+    const Eigen::MatrixXd j = springs.lambda * dense.j_lambda + springs.mu * dense.j_mu;
+    const double exact = std::sqrt(Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(
+                                       j(free, free), dense.mass(free, free), Eigen::EigenvaluesOnly)
+                                       .eigenvalues()
+                                       .maxCoeff());
+    EXPECT_GE(parts.spectrum.omega_max, exact * (1.0 - 1e-12)) << k;
+    EXPECT_LE(parts.spectrum.omega_max, 1.0075 * exact) << k;
+  }
+}
+
+// After looks all around the eigenvalues it excludes much, and none of them.
+TEST(NumericalRange, ExcludesNoEigenvalue) {
+  std::mt19937 random(42);
+  int excluded = 0, tried = 0;
+  for (int k = 0; k < (is_sanitized ? 4 : 16); ++k) {
+    Scene scene = random_body(random, k, 3, 3);
+    set_mass(scene, k % 2 == 0 ? Mass::lumped : Mass::consistent);
+    const Parts parts(scene);
+    const auto all = TrueSpectrum(scene).values();
+    NumericalRange range(parts.model, *parts.solver);
+    for (std::size_t i = 0; i < all.size(); i += 3) {
+      for (const double factor : {0.8, 1.1}) {
+        const std::complex<double> z = factor / all[i];
+        range.look_at(z, i % 2 == 0 ? NumericalRange::Clearest::part : NumericalRange::Clearest::distance);
+      }
+    }
+    for (const std::complex<double> s : all) {
+      const std::complex<double> z = 1.0 / s;
+      const std::complex<double> near[] = {z, z * std::complex<double>(1.0, 1e-3), z * 1.001,
+                                           z * std::complex<double>(0.999, -1e-3)};
+      EXPECT_FALSE(range.excludes({near, 1})) << k << ": " << s;
+      EXPECT_FALSE(range.excludes(near)) << k << ": " << s;
+      for (const double factor : {0.5, 0.7, 1.5, 3.0}) {
+        const std::complex<double> other = factor * z;
+        ++tried;
+        excluded += range.excludes({&other, 1}) ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(excluded, tried / 10);
+  std::printf("excluded %d of %d points beside eigenvalues\n", excluded, tried);
+}
+
+TEST(NumericalRange, StepIsNeverAboveTheTruthAndRk4sIsNear) {
+  std::mt19937 random(43);
+  double lowest[2] = {1.0, 1.0}, sum[2] = {0.0, 0.0}, sum_before[2] = {0.0, 0.0};
+  int count[2] = {0, 0};
+  for (int k = 0; k < (is_sanitized ? 6 : 48); ++k) {
+    Scene scene = random_body(random, k, 3 + k % 2, 3);
+    set_mass(scene, k % 2 == 0 ? Mass::lumped : Mass::consistent);
+    const Parts parts(scene);
+    const TrueSpectrum truth(scene);
+    for (const IntegratorKind integrator : {IntegratorKind::rk4, IntegratorKind::euler}) {
+      const double safe = stable_step(parts.spectrum, integrator);
+      const TrueLimit limit = truth.limit(integrator);
+      if (!limit.determined() || !(safe > 0.0) || std::isinf(safe)) continue;
+      const RangeStep found = range_step(parts.model, *parts.solver, parts.spectrum, integrator, safe);
+      const double best = std::max(found.step, safe);
+      EXPECT_LE(best, limit.high * (1.0 + 1e-9)) << k;
+      const bool is_rk4 = integrator == IntegratorKind::rk4;
+      if (is_rk4) {
+        EXPECT_GE(best, 0.95 * limit.low) << k;
+      }
+      const int i = is_rk4 ? 0 : 1;
+      lowest[i] = std::min(lowest[i], best / limit.high);
+      sum[i] += best / limit.high;
+      sum_before[i] += safe / limit.high;
+      ++count[i];
+    }
+  }
+  for (const int i : {0, 1})
+    std::printf("%s over true: lowest %.3f, mean %.3f; without the range mean %.3f; %d scenes\n",
+                i == 0 ? "RK4" : "Euler", lowest[i], sum[i] / count[i], sum_before[i] / count[i], count[i]);
+  // The range is wider than its eigenvalues where rates far apart share a mode, but half as far as before.
+  EXPECT_GT(1.0 - sum_before[1] / count[1], 1.3 * (1.0 - sum[1] / count[1]));
+}
+
+// Rates of lambda and mu alike, as of one relaxation of Young's modulus with one Poisson ratio: the
+// operator's parts share their eigenvectors, and the range is as near as the search.
+TEST(NumericalRange, EulersStepIsNearWhereModuliRelaxAlike) {
+  std::mt19937 random(44);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int k = 0; k < (is_sanitized ? 2 : 10); ++k) {
+    Scene scene = random_body(random, 2 + k, 14, 9);
+    scene.regions.clear();
+    scene.region_of_triangle.clear();
+    const double frequency = 4.0 * 13;
+    const double ratio = 0.2 + 5.0 * unit(random);
+    Response mu{{{20.0, frequency * std::pow(10.0, 2.0 * unit(random) - 1.5)},
+                 {10.0 * unit(random), frequency * std::pow(10.0, 2.0 * unit(random) - 2.5)}},
+                10.0 * unit(random),
+                0.0};
+    scene.material = material_of(mu.scaled(ratio), mu, 0.2);
+    scene.time.integrator = IntegratorKind::euler;
+    scene.time.step = 0.0;
+    const Simulation simulation(scene, {.allow_unstable = true});
+    ASSERT_TRUE(simulation.spectrum().eigenvalues.empty()) << "more than are taken";
+    // By the vibrations alone: s + omega^2 sum of e / (s + r) = 0 with e the springs' shares.
+    const DenseMatrices dense = dense_matrices(scene.mesh, scene.material);
+    std::vector<Eigen::Index> free;
+    std::vector<char> held(static_cast<std::size_t>(dense.mass.rows()), 0);
+    for (const Fix& fix : scene.fixes)
+      for (const int node : fix.nodes)
+        held[2 * static_cast<std::size_t>(node)] = held[2 * static_cast<std::size_t>(node) + 1] = 1;
+    for (Eigen::Index i = 0; i < dense.mass.rows(); ++i)
+      if (!held[static_cast<std::size_t>(i)]) free.push_back(i);
+    const Eigen::MatrixXd j = ratio * dense.j_lambda + dense.j_mu;
+    const Eigen::VectorXd quotients = Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd>(
+                                          j(free, free), dense.mass(free, free), Eigen::EigenvaluesOnly)
+                                          .eigenvalues();
+    const std::vector<Relaxation> springs = relaxations_of(scene.material);
+    const auto n = static_cast<Eigen::Index>(springs.size());
+    double truth = infinite;
+    for (const Relaxation& each : springs)
+      if (each.rate > 0.0) truth = std::min(truth, 2.0 / each.rate);
+    for (const double q : quotients) {
+      if (q < 1e-9 * quotients.maxCoeff()) continue;
+      Eigen::MatrixXd mode = Eigen::MatrixXd::Zero(1 + n, 1 + n);
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const Relaxation& each = springs[static_cast<std::size_t>(i)];
+        mode(0, 1 + i) = -std::sqrt(each.moduli.mu * q);
+        mode(1 + i, 0) = -mode(0, 1 + i);
+        mode(1 + i, 1 + i) = -each.rate;
+      }
+      const Eigen::EigenSolver<Eigen::MatrixXd> solved(mode, false);
+      for (const std::complex<double> s : solved.eigenvalues())
+        truth = std::min(truth, stable_step_of({std::min(s.real(), 0.0), s.imag()}, IntegratorKind::euler));
+    }
+    const double predicted = stable_step(simulation.spectrum(), IntegratorKind::euler);
+    EXPECT_LE(predicted, truth * (1.0 + 1e-9)) << k;
+    EXPECT_GE(predicted, 0.95 * truth) << k;
+  }
+}
+
+TEST(NumericalRange, Rk4sStepIsNearTheOutermostEigenvaluesOfALargerBody) {
+  constexpr int scenes = is_sanitized ? 3 : 16;
+  std::mt19937 random(45);
+  double lowest = 1.0;
+  int told = 0;
+  for (int k = 0; k < scenes; ++k) {
+    Scene scene = random_body(random, k, is_sanitized ? 12 : 26, is_sanitized ? 7 : 13);
+    scene.time.step = 0.0;
+    const Simulation simulation(scene, {.allow_unstable = true});
+    ASSERT_TRUE(simulation.spectrum().eigenvalues.empty()) << "more than are taken";
+    const double predicted = stable_step(simulation.spectrum(), IntegratorKind::rk4);
+    const OuterLimit truth = outer_rk4_limit(scene);
+    if (!truth.complete) continue;  // all springs of the fastest rate
+    ++told;
+    EXPECT_LE(predicted, truth.step * (1.0 + 1e-6)) << k;
+    EXPECT_GE(predicted, 0.95 * truth.step) << k;
+    lowest = std::min(lowest, predicted / truth.step);
+  }
+  EXPECT_GT(told, scenes / 2);
+  std::printf("RK4, lowest over true: %.4f, of %d scenes\n", lowest, told);
+}
+
+// The Arnoldi process above against all eigenvalues.
+TEST(NumericalRange, OutermostEigenvaluesAreThoseOfTheWholeOperator) {
+  std::mt19937 random(46);
+  for (int k = 0; k < (is_sanitized ? 2 : 8); ++k) {
+    const Scene scene = random_body(random, k, 4, 3);
+    const TrueLimit truth = TrueSpectrum(scene).limit(IntegratorKind::rk4);
+    const OuterLimit outer = outer_rk4_limit(scene);
+    if (!outer.complete) continue;
+    EXPECT_NEAR(outer.step, truth.high, 1e-6 * truth.high) << k;
+  }
+}
+
+// A scene that gives a step which is surely stable is not searched for more.
+TEST(NumericalRange, IsNotAskedForWhereTheGivenStepIsSurelyStable) {
+  std::mt19937 random(47);
+  Scene scene = random_body(random, 4, 12, 7);
+  scene.time.step = 0.0;
+  const Spectrum searched = Simulation(scene, {.allow_unstable = true}).spectrum();
+  EXPECT_GT(searched.rk4_step, 0.0);
+  scene.time.step = 1e-12;
+  EXPECT_EQ(Simulation(scene, {.allow_unstable = true}).spectrum().rk4_step, 0.0);
+  scene.time.step = 0.0;
+  const Spectrum safe = Simulation(scene, {.allow_unstable = true, .nearness = Nearness::safe}).spectrum();
+  EXPECT_EQ(safe.rk4_step, 0.0);
+  EXPECT_LT(stable_step(safe, IntegratorKind::rk4), stable_step(searched, IntegratorKind::rk4));
+}
+
+}  // namespace
+}  // namespace rheo::test
