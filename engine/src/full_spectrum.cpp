@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace rheo {
@@ -14,22 +15,53 @@ using Symmetric = Eigen::SelfAdjointEigenSolver<MatrixR>;
 // Of the largest eigenvalue: by how much QR's rounding may move one, and what no deformation has.
 constexpr Real rounding = 1e-17L;
 constexpr Real rigid = 1e-16L;
-// Of the largest stiffness of a region's J, which is added up in double; and of a root's largest row.
-constexpr Real no_stiffness = 1e-13L;
+// Of a root's largest row.
 constexpr Real no_row = 1e-15L;
 
-// The rows of the root of a symmetric matrix that are not zero: root^T root = matrix. False where QR
-// iteration does not end.
-bool root_of(const MatrixR& matrix, MatrixR& root) {
-  const Symmetric solver(matrix);
-  if (solver.info() != Eigen::Success) return false;
-  const Real largest = std::max(solver.eigenvalues().maxCoeff(), Real{0});
-  Eigen::Index first = 0;  // eigenvalues rise
-  while (first < matrix.rows() && !(solver.eigenvalues()[first] > no_stiffness * largest)) ++first;
-  root.resize(matrix.rows() - first, matrix.cols());
-  for (Eigen::Index i = first; i < matrix.rows(); ++i)
-    root.row(i - first) = std::sqrt(solver.eigenvalues()[i]) * solver.eigenvectors().col(i).transpose();
-  return true;
+// As few rows as there need be for the same root^T root.
+MatrixR compressed(const MatrixR& root) {
+  if (root.rows() == 0) return root;
+  Eigen::ColPivHouseholderQR<MatrixR> qr(root);
+  qr.setThreshold(no_row);
+  const MatrixR top = qr.matrixR().topRows(qr.rank()).template triangularView<Eigen::Upper>();
+  return top * qr.colsPermutation().transpose();
+}
+
+// Rows of strains with root^T root = J of a patch, on the degrees of freedom that have a place: e_x + e_y for
+// lambda; sqrt(2) e_x, sqrt(2) e_y and g for mu; times sqrt(h T). Not from J, which is added up in double:
+// what a sliver's shear has of it may be less than its rounding.
+MatrixR strains(const Mesh& mesh, const Patch& patch, Modulus modulus, const std::vector<Eigen::Index>& place,
+                Eigen::Index places) {
+  const bool is_lambda = modulus == Modulus::lambda;
+  const auto count = patch.triangles.empty() ? mesh.triangles.size() : patch.triangles.size();
+  MatrixR rows = MatrixR::Zero(static_cast<Eigen::Index>(is_lambda ? count : 3 * count), places);
+  Eigen::Index row = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Triangle& triangle =
+        mesh.triangles[patch.triangles.empty() ? i : static_cast<std::size_t>(patch.triangles[i])];
+    std::array<Real, 3> x{}, y{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2& p = mesh.points[static_cast<std::size_t>(triangle[k])];
+      x[k] = p.x, y[k] = p.y;
+    }
+    const Real doubled = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0]);
+    const Real size = std::sqrt(static_cast<Real>(mesh.thickness_of(triangle)) * doubled / 2) / doubled;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Real b = size * (y[(k + 1) % 3] - y[(k + 2) % 3]), c = size * (x[(k + 2) % 3] - x[(k + 1) % 3]);
+      const auto add = [&](Eigen::Index which, std::size_t axis, Real value) {
+        const Eigen::Index at = place[2 * static_cast<std::size_t>(triangle[k]) + axis];
+        if (at >= 0) rows(row + which, at) += value;
+      };
+      if (is_lambda) {
+        add(0, 0, b), add(0, 1, c);
+      } else {
+        add(0, 0, std::sqrt(Real{2}) * b), add(1, 1, std::sqrt(Real{2}) * c);
+        add(2, 0, c), add(2, 1, b);
+      }
+    }
+    row += is_lambda ? 1 : 3;
+  }
+  return rows;
 }
 
 // J^1/2 of each region and modulus apart. Their sums are never made: lambda may be 1e8 times mu, and the
@@ -53,11 +85,7 @@ struct Roots {
       all.middleRows(at, root.rows()) = std::sqrt(static_cast<Real>(modulus)) * root;
       at += root.rows();
     });
-    if (all.rows() == 0) return all;
-    Eigen::ColPivHouseholderQR<MatrixR> qr(all);
-    qr.setThreshold(no_row);
-    const MatrixR top = qr.matrixR().topRows(qr.rank()).template triangularView<Eigen::Upper>();
-    return top * qr.colsPermutation().transpose();
+    return compressed(all);
   }
 };
 
@@ -89,7 +117,7 @@ MatrixR free_directions(const MatrixR& unroot, const MatrixR& columns) {
 
 }  // namespace
 
-std::optional<std::vector<std::complex<double>>> full_spectrum(const Model& model,
+std::optional<std::vector<std::complex<double>>> full_spectrum(const Mesh& mesh, const Model& model,
                                                                const ConstraintSolver& solver, int most) {
   const auto size = static_cast<Eigen::Index>(model.layout.part);
   std::vector<Eigen::Index> free;
@@ -118,32 +146,22 @@ std::optional<std::vector<std::complex<double>>> full_spectrum(const Model& mode
     for (const auto& [dof, coefficient] : solver.columns()[static_cast<std::size_t>(k)].entries)
       if (place[dof] >= 0) columns(place[dof], k) = coefficient;
   }
-  // Of `apply` on the free degrees of freedom, a column at a time.
   Vector unit(size), image(size);
-  const auto dense = [&](const auto& apply) {
-    MatrixR result(n, n);
-    for (Eigen::Index k = 0; k < n; ++k) {
-      unit.setZero();
-      unit[free[k]] = 1.0;
-      apply();
-      for (Eigen::Index i = 0; i < n; ++i) result(i, k) = image[free[i]];
-    }
-    return MatrixR((result + result.transpose()) / 2);
-  };
-  const Symmetric mass(dense([&] { model.multiply_mass(unit.data(), image.data()); }));
+  MatrixR mass_matrix(n, n);  // a column at a time
+  for (Eigen::Index k = 0; k < n; ++k) {
+    unit.setZero();
+    unit[free[k]] = 1.0;
+    model.multiply_mass(unit.data(), image.data());
+    for (Eigen::Index i = 0; i < n; ++i) mass_matrix(i, k) = image[free[i]];
+  }
+  const Symmetric mass(MatrixR((mass_matrix + mass_matrix.transpose()) / 2));
   if (mass.info() != Eigen::Success) return std::nullopt;
   const MatrixR unroot = mass.operatorInverseSqrt();
   const MatrixR to_v = unroot * free_directions(unroot, columns);
   Roots roots;
-  std::vector<Moduli> one(materials.size());
-  for (std::size_t r = 0; r < materials.size(); ++r) {
-    for (const bool is_lambda : {true, false}) {
-      MatrixR& root = (is_lambda ? roots.lambda : roots.mu).emplace_back();
-      one[r] = {is_lambda ? 1.0 : 0.0, is_lambda ? 0.0 : 1.0};
-      if (!root_of(dense([&] { image = model.stiffness(one, unit); }), root)) return std::nullopt;
-      root = root * to_v;
-    }
-    one[r] = {};
+  for (const Patch& patch : model.patches) {
+    roots.lambda.push_back(compressed(strains(mesh, patch, Modulus::lambda, place, n) * to_v));
+    roots.mu.push_back(compressed(strains(mesh, patch, Modulus::mu, place, n) * to_v));
   }
   std::vector<MatrixR> couplings;
   Eigen::Index all = to_v.cols();

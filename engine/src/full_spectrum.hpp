@@ -5,6 +5,7 @@
 //   x = Z^T M^1/2 v,  C_k^T C_k = B^T K_k B,  D = B^T (viscous_lambda J_lambda + viscous_mu J_mu) B,  B =
 //   M^-1/2 Z K_k = lambda_k J_lambda + mu_k J_mu
 //
+// C_k is made of the triangles' strains: J, which is added up in double, has lost some of what a sliver has.
 // Z spans what the constraints leave free; the springs of one rate make one k (relaxations_of), the elastic
 // part is that of rate 0. Several materials: K_k is the sum over the regions, likewise the viscous part.
 // In these variables, whose squares are energies, the operator is skew but for damping, and its eigenvalues
@@ -31,7 +32,7 @@ namespace rheo {
 
 inline constexpr int most_eigenvalues = 300;
 
-std::optional<std::vector<std::complex<double>>> full_spectrum(const Model& model,
+std::optional<std::vector<std::complex<double>>> full_spectrum(const Mesh& mesh, const Model& model,
                                                                const ConstraintSolver& solver,
                                                                int most = most_eigenvalues);
 

@@ -194,7 +194,8 @@ void Schedule::make_spectrum(Nearness nearness) {
     // RK4's limit hangs on rates only where they are not small beside the vibrations.
     const bool rates_matter = euler || std::max(s.largest_rate(), damping) > rates_that_matter * bound.omega;
     if (eigenvalues && rates_matter) {
-      const auto found = full_spectrum(model_, constrained, euler ? most_eigenvalues : most_for_rk4);
+      const auto found =
+          full_spectrum(scene_.mesh, model_, constrained, euler ? most_eigenvalues : most_for_rk4);
       eigenvalues = found.has_value();
       if (found) s.eigenvalues.insert(s.eigenvalues.end(), found->begin(), found->end());
     } else {
