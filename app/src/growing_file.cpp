@@ -73,9 +73,18 @@ std::size_t GrowingFile::next_piece(std::uint64_t offset, std::uint64_t end, std
 
 GrowingFile::~GrowingFile() {
   if (file_ < 0) return;
+  if (!kept_)
+    discard();
+  else
+    close(file_);
+}
+
+void GrowingFile::discard() {
+  if (file_ < 0) return;
   close(file_);
+  file_ = -1;
   std::error_code ignored;
-  if (!kept_) fs::remove(part_of(path_), ignored);
+  fs::remove(part_of(path_), ignored);
 }
 
 void GrowingFile::append(std::string_view piece) {

@@ -53,7 +53,8 @@ class GrowingFile {
   void read(std::uint64_t offset, std::span<char> out);
   // All so far is on the disk, and the part stays there from now on. Of a file that is whole: what it is.
   Mark keep();
-  void discard() { kept_ = false; }
+  // It goes at once, kept or not; nothing is read or written afterwards.
+  void discard();
   void commit();
 
  private:

@@ -41,7 +41,7 @@ class Recorder : public OutputSink {
   void put(rheo::ByteWriter& out);
   // Before the first record.
   void get(rheo::ByteReader& in);
-  // What was kept goes with this object after all.
+  // What was kept goes after all, at once; no frame is drawn afterwards.
   void discard() { store_.discard(); }
 
   // Outputs so far.

@@ -57,6 +57,9 @@ bool has_ended(const Options& options, Progress& progress) {
         fmt::format("{}: the run there has diverged, and would again: change its step or its scene, "
                     "and begin anew with --force",
                     options.folder.string()));
+  // Killed after its last word and before its last deed.
+  std::error_code ignored;
+  std::filesystem::remove(options.folder / "positions.bin.part", ignored);
   progress.line(fmt::format("note: {}: the run there has ended: nothing to resume", options.folder.string()));
   return true;
 }
@@ -279,7 +282,6 @@ void Run::stop(StopSignal signal) {
 }
 
 void Run::finish() {
-  records_.discard();
   const bool keeps = options_.keeps_checkpoint && !report_.divergence;
   if (keeps) folder_.made(checkpoint_name);
   folder_.made("run.json");
@@ -290,7 +292,8 @@ void Run::finish() {
   report_.exit_status = report_.divergence ? ExitCode::diverged : ExitCode::done;
   if (keeps) rheo::write_checkpoint(folder_.path() / checkpoint_name, simulation_);
   write_report();
-  // In this order: a run that is killed in between has ended.
+  // In this order: a run that is killed in between has ended, and has_ended() sees to what is left.
+  records_.discard();
   if (!keeps) checkpoint_.remove();
 }
 

@@ -13,6 +13,7 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 // Of the limit by the witnesses, what is asked for; and what bent edges of the smallest cells may hide.
 constexpr double asked_share = 0.985, bent = 0.997;
+constexpr double near_enough = 0.97;
 constexpr int most_looks = 100;
 constexpr double most_work = 1e9;  // products times their size: about half a minute on a million triangles
 constexpr double strip = 1.06;     // from one step to the next
@@ -50,6 +51,8 @@ class RangeSearch {
     double share = asked_share;
     for (int looks = 0; looks < most_looks && !has_worked_enough(); ++looks) {
       meet();
+      // Of what is stable for sure nothing is to be gained then.
+      if (surely_ >= near_enough * contact_) return {0.0, range_.products()};
       const double step = share * (contact_ < cap_ ? contact_ : 0.999 / asked_share * cap_);
       if (step <= surely_) return {0.0, range_.products()};
       const std::complex<double> open = first_open(step);

@@ -140,8 +140,10 @@ TEST_F(Faults, ResumeSaysWhatThereIsToGoOnFrom) {
   EXPECT_EQ(anew.exit_code, 0) << anew.err;
   EXPECT_THAT(anew.out, HasSubstr("no checkpoint to go on from: begins at t = 0"));
   const std::string before = read_text(results() / "run.json");
+  std::ofstream(results() / "positions.bin.part") << "killed before it went";
   const Ended again = run(folder_, with({"--resume"}));
   EXPECT_EQ(again.exit_code, 0);
+  EXPECT_FALSE(fs::exists(results() / "positions.bin.part"));
   EXPECT_THAT(again.out, HasSubstr("has ended: nothing to resume"));
   EXPECT_EQ(read_text(results() / "run.json"), before);
   expect_line(run(folder_, with({"--resume", "--force"})), 2, {"--resume and --force"});

@@ -85,9 +85,11 @@ std::vector<RunCase> run_cases(double length, bool pictures) {
     return first;
   };
   std::vector<RunCase> cases{
-      {"rk4, edge", scene_text(81, 21, "lumped", grab, 2.0 * length, 200, "rk4"), with({"run"})},
+      {"rk4, edge", scene_text(41, 11, "lumped", grab, 2.0 * length, 200, "rk4"), with({"run"})},
       {"rk4, several materials, vtu", scene_text(49, 13, "lumped", grab + region, 2.0 * length, 60, "rk4"),
        with({"run"}, {"--vtu"})},
+      {"rk4, edge, 3,200 triangles", scene_text(81, 21, "lumped", grab, 2.0 * length, 60, "rk4"),
+       with({"run"})},
       {"euler, csr", scene_text(9, 3, "consistent", tie, 0.4 * length, 500, "euler"), with({"run"})},
       {"exponential", scene_text(41, 11, "lumped", grab, 3.0 * length, 300, "exponential"), with({"run"})},
       {"implicit, constraint", scene_text(25, 7, "consistent", grab + tie, 2.0 * length, 100, "implicit"),
