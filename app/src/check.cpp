@@ -155,9 +155,9 @@ struct EulerLimit {
   bool bound = false;
 };
 
-// As a run with Euler would find it: small scenes have all their eigenvalues taken for it.
+// As a run with Euler would find it, by all eigenvalues or the numerical range: up to where that takes a second.
 EulerLimit euler_limit_of(const rheo::Scene& scene, const rheo::Simulation& simulation) {
-  constexpr int small = 1000;  // nodes
+  constexpr int small = 30000;  // nodes
   const auto of = [](const rheo::Spectrum& spectrum) {
     return EulerLimit{rheo::stable_step(spectrum, rheo::IntegratorKind::euler),
                       rheo::stable_step_is_bound(spectrum, rheo::IntegratorKind::euler)};
