@@ -150,42 +150,51 @@ enum class Verdict {
   no_step    // automatic, and no step is stable
 };
 
-struct EulerLimit {
+struct Limit {
   double step = 0.0;
   bool bound = false;
 };
 
-// As a run with Euler would find it, by all eigenvalues or the numerical range: up to where that takes a second.
-EulerLimit euler_limit_of(const rheo::Scene& scene, const rheo::Simulation& simulation) {
+struct Limits {
+  Limit rk4, euler;
+};
+
+// As a run with that integrator would find it, by all eigenvalues or the numerical range: up to where that
+// takes a second.
+Limit limit_of(const rheo::Scene& scene, const rheo::Simulation& simulation,
+               rheo::IntegratorKind integrator) {
   constexpr int small = 30000;  // nodes
-  const auto of = [](const rheo::Spectrum& spectrum) {
-    return EulerLimit{rheo::stable_step(spectrum, rheo::IntegratorKind::euler),
-                      rheo::stable_step_is_bound(spectrum, rheo::IntegratorKind::euler)};
+  const auto of = [&](const rheo::Spectrum& spectrum) {
+    return Limit{rheo::stable_step(spectrum, integrator), rheo::stable_step_is_bound(spectrum, integrator)};
   };
-  if (scene.mesh.node_count() > small) return of(simulation.spectrum());
-  rheo::Scene euler = scene;
-  euler.time.integrator = rheo::IntegratorKind::euler;
-  euler.time.step = scene.time.duration;
+  const Limit known = of(simulation.spectrum());
+  if (!known.bound || scene.mesh.node_count() > small) return known;
+  rheo::Scene probe = scene;
+  probe.time.integrator = integrator;
+  probe.time.step = scene.time.duration;  // beyond any
   rheo::SimulationOptions any_step;
   any_step.allow_unstable = true;
-  return of(rheo::Simulation(std::move(euler), any_step).spectrum());
+  return of(rheo::Simulation(std::move(probe), any_step).spectrum());
 }
 
-void print_steps(const rheo::Simulation& simulation, rheo::IntegratorKind integrator, EulerLimit euler_limit,
+std::string limit_text(const Limit& limit) {
+  return stable_text(limit.step) + (limit.bound ? " at least (a safe bound)" : "");
+}
+
+void print_steps(const rheo::Simulation& simulation, rheo::IntegratorKind integrator, const Limits& limits,
                  Verdict verdict, const std::optional<rheo::AccuracyPlan>& plan) {
   const rheo::Spectrum& spectrum = simulation.spectrum();
   const rheo::TimeSettings& time = simulation.scene().time;
   row("omega_max", "{:.6g} rad/s ({} Lanczos steps); by single elements {:.6g} rad/s", spectrum.omega_max,
       spectrum.lanczos_steps, spectrum.element_bound);
-  row("stable rk4", "{}", stable_text(rheo::stable_step(spectrum, rheo::IntegratorKind::rk4)));
+  row("stable rk4", "{}", limit_text(limits.rk4));
   if (const std::string advice = stiffness_advice(simulation.scene(), spectrum); !advice.empty())
     row("advice", "{}", advice);
-  if (euler_limit.bound && euler_limit.step <= 0.0)
+  if (limits.euler.bound && limits.euler.step <= 0.0)
     row("stable euler",
         "none that can be promised: a material that does not relax, in a body too large to tell");
   else
-    row("stable euler", "{}{}", stable_text(euler_limit.step),
-        euler_limit.bound ? " at least (a safe bound)" : "");
+    row("stable euler", "{}", limit_text(limits.euler));
   if (plan) row("accuracy", "{}", plan_text(*plan));
   row("integrator", "{}", name_of(integrator));
   row("kernel", "{}", simulation.kernel());
@@ -315,9 +324,11 @@ void check_loaded(const Options& options, rheo::Scene scene) {
   rheo::Scene shown = scene;
   if (time.step == 0.0) shown.time.integrator = rheo::IntegratorKind::rk4;
   std::optional<rheo::Simulation> simulation(std::in_place, std::move(shown), any_step);
-  const EulerLimit euler_limit = euler_limit_of(scene, *simulation);
-  const double limit =
-      time.integrator == rheo::IntegratorKind::euler ? euler_limit.step : simulation->stable_step();
+  const Limits limits{limit_of(scene, *simulation, rheo::IntegratorKind::rk4),
+                      limit_of(scene, *simulation, rheo::IntegratorKind::euler)};
+  const double limit = time.integrator == rheo::IntegratorKind::euler ? limits.euler.step
+                       : time.integrator == rheo::IntegratorKind::rk4 ? limits.rk4.step
+                                                                      : simulation->stable_step();
   Verdict verdict = Verdict::accepted;
   if (time.step == 0.0 && limit == 0.0) verdict = Verdict::no_step;
   // Rounding as the engine allows it.
@@ -328,7 +339,7 @@ void check_loaded(const Options& options, rheo::Scene scene) {
   for (const std::string& note : run_notes(scene)) fmt::print("  note: {}\n", printable(note));
   print_mesh(scene);
   print_loads(scene);
-  print_steps(*simulation, time.integrator, euler_limit, verdict, plan);
+  print_steps(*simulation, time.integrator, limits, verdict, plan);
   print_cost(*simulation, verdict);
   if (folder) {
     for (const std::string& note : write_plots(scene, options, *folder))

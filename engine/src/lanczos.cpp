@@ -24,6 +24,11 @@ double pseudo_random(std::uint64_t& state) {
   return static_cast<double>(static_cast<std::int64_t>(z ^ (z >> 31))) * 0x1p-63;
 }
 
+double nearly_normal(std::uint64_t& state) {
+  const double first = pseudo_random(state), second = pseudo_random(state);
+  return first + second + pseudo_random(state);
+}
+
 // The largest eigenvalue of the tridiagonal matrix, from above, to 1e-12 of its entries: bisection by the
 // signs of its pivots. (QR iteration for all of them takes longer, and does not always end where the entries
 // span many decades.)
@@ -95,7 +100,7 @@ LanczosRun::LanczosRun(const Model& model, const ConstraintSolver& solver, const
   std::uint64_t seed = 1;
   for (Eigen::Index i = 0; i < size; ++i) {
     start[i] = solver.is_free(static_cast<std::size_t>(i))
-                   ? pseudo_random(seed) * std::sqrt(model.node_mass[i / 2])
+                   ? nearly_normal(seed) * std::sqrt(model.node_mass[i / 2])
                    : 0.0;
   }
   project(start, next_);
@@ -166,17 +171,17 @@ LowestValue lowest_value(const Model& model, const ConstraintSolver& solver,
     run.step();
     goes_on = !run.is_exhausted(rounded);
     const int k = run.steps();
-    if (goes_on && k < most_steps && k % 8 != 0) continue;
+    const double resolved = chance / (2 * k - 1);
+    if (goes_on && k < most_steps && (k % 8 != 0 || resolved > 0.5)) continue;
     const double lowest = -largest_value(run.diagonal(), run.off_diagonal(), -1.0);
     const double highest = largest_value(run.diagonal(), run.off_diagonal(), 1.0);
     const double spread = highest - lowest;
-    const double resolved = chance / (2 * k - 1);
     const double rounding = 2e-12 * std::max(std::abs(lowest), std::abs(highest));
     result.ritz = lowest;
     result.diagonal = run.diagonal();
     result.off_diagonal = run.off_diagonal();
     // Of the whole spread, of which the Ritz values may miss as much at the other end.
-    const double missed = resolved * resolved / std::max(1.0 - 2.0 * resolved * resolved, 0.1);
+    const double missed = resolved * resolved / std::max(1.0 - 2.0 * resolved * resolved, 0.5);
     result.bound = lowest - rounding - (goes_on ? missed * spread : run.beta());
     // Half of what there is, which leaves something for the neighbours.
     if (result.bound + shift > 0.5 * (lowest + shift) && lowest + shift > 0.0) break;

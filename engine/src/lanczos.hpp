@@ -10,7 +10,9 @@
 //   largest eigenvalue - largest Ritz value <= e (largest - lowest),  e = (ln(1.648 sqrt(n) / p) / (2 k -
 //   1))^2
 //
-// but with probability p, whatever the operator.
+// but with probability p, whatever the operator, for a start of normal numbers in the inner product of M.
+// (Here sums of three uniform ones; with consistent mass some directions have up to twice as much as others.
+// Neither counts beside p.)
 //
 // Source   Parlett, The Symmetric Eigenvalue Problem, 1980, ch. 13; Kuczynski and Wozniakowski, SIAM J.
 //          Matrix Anal. Appl. 13 (1992), theorem 4.2

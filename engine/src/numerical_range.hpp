@@ -20,6 +20,7 @@
 #pragma once
 
 #include <complex>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -33,9 +34,15 @@ class NumericalRange {
   // Both must outlive this.
   NumericalRange(const Model& model, const ConstraintSolver& solver);
 
-  // Whether one u, v shows for all of these that 1 / z is no eigenvalue, hence for what lies between them,
-  // where they are near to one another; by what is known.
+  // Whether one u, v shows for all of these that 1 / z is no eigenvalue, by what is known; hence for what
+  // lies between them, whose H is nearly between theirs. That asks for being near to one another, next to the
+  // distance from the poles z = -1 / r: false where they are not.
   bool excludes(std::span<const std::complex<double>> z) const;
+  // Whether neither z is one, of Re z <= 0 <= Im z, nor any with a larger Im z and a Re z as large: by signs.
+  //   Im c(z) / Im z = d - 2 |Re z| sum of e (r = 0) + sum of e / r (1 - 1 / |1 + r z|^2) (r > 0, r |Re z| <
+  //   1)
+  // only grows then.
+  bool excludes_slower(std::complex<double> z) const;
   // Whether no u, v can do that.
   bool includes(std::span<const std::complex<double>> z) const;
   // Gets to know more of it by a Lanczos run, for the u, v that the witnesses leave the most: of the numbers'
@@ -43,7 +50,8 @@ class NumericalRange {
   enum class Clearest { distance, part };
   void look_at(std::complex<double> z, Clearest clearest);
 
-  int products() const { return products_; }  // of matrices with vectors so far
+  int products() const { return products_; }       // of matrices with vectors so far
+  std::int64_t trials() const { return trials_; }  // of what is known on some z
 
  private:
   struct Term {
@@ -73,7 +81,9 @@ class NumericalRange {
   std::vector<Term> terms_;
   std::vector<Vector> positive_;   // rows of what is known to be positive definite
   std::vector<Vector> quotients_;  // x^T J_m x of vectors
+  std::vector<std::complex<double>> poles_;
   int products_ = 0;
+  mutable std::int64_t trials_ = 0;
 };
 
 }  // namespace rheo

@@ -16,11 +16,13 @@ constexpr double asked_share = 0.985, bent = 0.997;
 constexpr double near_enough = 0.97;
 constexpr int most_looks = 100;
 constexpr double most_work = 1e9;  // products times their size: about half a minute on a million triangles
-constexpr double strip = 1.06;     // from one step to the next
-constexpr int deepest_open = 5;    // halvings of a cell that nothing excludes as a whole
-constexpr int deepest_met = 7;     // of one that witnesses may be in
-constexpr double slowest = 10.0;   // of the places: 2,400 times slower than the largest rates
-constexpr double beyond = 0.6;     // of the way to the witnesses: where looking excludes most
+constexpr std::int64_t most_trials = 4000000;  // about a second
+constexpr int most_strips = 120;
+constexpr double strip = 1.06;    // from one step to the next
+constexpr int deepest_open = 5;   // halvings of a cell that nothing excludes as a whole
+constexpr int deepest_met = 7;    // of one that witnesses may be in
+constexpr double slowest = 10.0;  // of the places: 2,400 times slower than anything can be fast
+constexpr double beyond = 0.6;    // of the way to the witnesses: where looking excludes most
 
 class RangeSearch {
  public:
@@ -35,14 +37,15 @@ class RangeSearch {
     for (const Relaxation& each : spectrum.relaxations) rate = std::max(rate, each.rate);
     largest_ = spectrum.omega_max + std::max(rate, spectrum.viscous_max);
     cap_ = 100.0 / std::max(spectrum.omega_max, spectrum.viscous_max);
-    if (rate > 0.0) cap_ = std::min(cap_, stable_step_of(-rate, integrator));
+    if (rate > 0.0) cap_ = std::min(cap_, 0.999 * stable_step_of(-rate, integrator));
     if (integrator == IntegratorKind::rk4) {
       for (int i = 0; i <= 90; ++i) places_.push_back(i / 90.0);
     } else {
       for (int i = 0; i <= 20 * slowest; ++i) places_.push_back(0.05 * i);
       hold_slow_ones();
     }
-    for (double h = surely; h < cap_; h *= strip)
+    const double ratio = std::max(strip, std::pow(cap_ / surely, 1.0 / most_strips));
+    for (double h = surely; h < cap_; h *= ratio)
       strips_.push_back({h, std::vector<char>(places_.size(), 1)});
     contact_ = cap_;
   }
@@ -53,7 +56,7 @@ class RangeSearch {
       meet();
       // Of what is stable for sure nothing is to be gained then.
       if (surely_ >= near_enough * contact_) return {0.0, range_.products()};
-      const double step = share * (contact_ < cap_ ? contact_ : 0.999 / asked_share * cap_);
+      const double step = share * (contact_ < cap_ ? contact_ : cap_ / asked_share);
       if (step <= surely_) return {0.0, range_.products()};
       const std::complex<double> open = first_open(step);
       if (open == 0.0) return {bent * step, range_.products()};
@@ -99,16 +102,10 @@ class RangeSearch {
 
   // What is slower than all places is excluded by its signs, or not at all.
   void hold_slow_ones() {
-    const auto excluded = [&](double h) {
-      for (double p = slowest; p < 20.0; p += 0.5)
-        if (!range_.excludes(corners({p, p + 0.5, surely_, h}))) return false;
-      return true;
-    };
     double low = 0.9 * surely_, high = cap_;
-    if (excluded(high)) return;
     while (high - low > 0.01 * low) {
       const double middle = std::sqrt(low * high);
-      (excluded(middle) ? low : high) = middle;
+      (range_.excludes_slower(at(slowest, middle)) ? low : high) = middle;
     }
     cap_ = low;
   }
@@ -127,7 +124,9 @@ class RangeSearch {
     return {Cell{c.p, p, c.h, h}, {p, c.next_p, c.h, h}, {c.p, p, h, c.next_h}, {p, c.next_p, h, c.next_h}};
   }
 
-  bool has_worked_enough() const { return range_.products() * size_ > most_work; }
+  bool has_worked_enough() const {
+    return range_.products() * size_ > most_work || range_.trials() > most_trials;
+  }
 
   // contact_: the shortest step at which witnesses are at the limit.
   void meet() {

@@ -1,7 +1,7 @@
 // The largest explicit step of a body too large for all its eigenvalues, by its numerical range.
 //
-//   h = the largest with: no s outside the integrator's region of stability / h' is in the range, for any
-//   h' <= h
+//   h = the largest with: no s outside the integrator's region of stability / h' is in the range, for any h'
+//   between a step that is stable for sure and h
 //
 // looked for along rays from 0 (RK4) or lines of equal Im(1 / s) (Euler, whose region is Re(1 / s) <= -h /
 // 2): what is known excludes points of them up to h, or one more Lanczos run is made for the first that it

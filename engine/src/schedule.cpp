@@ -224,6 +224,8 @@ void Schedule::find_range_step() {
     return;
   const double surely = stable_step(s, integrator);
   if (scene_.time.step > 0.0 && scene_.time.step <= surely) return;
+  // Baumgarte's pole is the limit, or nearly.
+  if (s.baumgarte > 0.0 && surely > 0.97 * stable_step_of(-s.baumgarte, integrator)) return;
   double step = std::numeric_limits<double>::infinity();
   const auto include = [&](const ConstraintSolver& solver) {
     if (step > surely) step = std::min(step, range_step(model_, solver, s, integrator, surely).step);

@@ -96,7 +96,7 @@ TEST(NumericalRange, LowestEigenvalueIsBetweenItsBoundAndTheRitzValue) {
     for (const double shift : {0.0, -0.5 * lowest, -1.01 * lowest, -2.0 * lowest}) {
       const LowestValue found = lowest_value(parts.model, *parts.solver, moduli, shift, 200);
       EXPECT_LE(found.bound, lowest + 1e-12 * spread) << k;
-      EXPECT_GE(found.ritz, lowest - 1e-12 * spread) << k;
+      EXPECT_GE(found.ritz, lowest - 1e-11 * spread) << k;
       if (lowest + shift < -1e-6 * spread) {
         EXPECT_LT(found.ritz + shift, 0.0) << k;
       }
@@ -160,6 +160,11 @@ TEST(NumericalRange, ExcludesNoEigenvalue) {
                                            z * std::complex<double>(0.999, -1e-3)};
       EXPECT_FALSE(range.excludes({near, 1})) << k << ": " << s;
       EXPECT_FALSE(range.excludes(near)) << k << ": " << s;
+      // As large as the search's: 6 % and 5 % or 1 degree.
+      const std::complex<double> cell[] = {
+          z * std::complex<double>(0.97, -0.02), z * std::complex<double>(1.03, -0.02),
+          z * std::complex<double>(0.97, 0.03), z * std::complex<double>(1.03, 0.03)};
+      EXPECT_FALSE(range.excludes(cell)) << k << ": " << s;
       for (const double factor : {0.5, 0.7, 1.5, 3.0}) {
         const std::complex<double> other = factor * z;
         ++tried;
@@ -167,7 +172,7 @@ TEST(NumericalRange, ExcludesNoEigenvalue) {
       }
     }
   }
-  EXPECT_GT(excluded, tried / 10);
+  EXPECT_GT(excluded, tried / 2);
   std::printf("excluded %d of %d points beside eigenvalues\n", excluded, tried);
 }
 
@@ -198,11 +203,73 @@ TEST(NumericalRange, StepIsNeverAboveTheTruthAndRk4sIsNear) {
       ++count[i];
     }
   }
+  EXPECT_EQ(count[0], is_sanitized ? 6 : 48);
+  EXPECT_GT(count[1], is_sanitized ? 2 : 30);
   for (const int i : {0, 1})
     std::printf("%s over true: lowest %.3f, mean %.3f; without the range mean %.3f; %d scenes\n",
                 i == 0 ? "RK4" : "Euler", lowest[i], sum[i] / count[i], sum_before[i] / count[i], count[i]);
   // The range is wider than its eigenvalues where rates far apart share a mode, but half as far as before.
   EXPECT_GT(1.0 - sum_before[1] / count[1], 1.3 * (1.0 - sum[1] / count[1]));
+}
+
+// A dashpot whose rate in the fastest mode is nearly that of a weak branch: eigenvalues right beside the pole
+// s = -r, where the operator changes over less than a cell of the search. (From half a safe step on, so that
+// all of it is searched.)
+TEST(NumericalRange, StepIsNotAboveTheTruthBesideAPole) {
+  std::mt19937 random(48);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  const auto decades = [&](double low, double high) { return low * std::pow(high / low, unit(random)); };
+  int found = 0, tried = 0;
+  for (int k = 0; k < (is_sanitized ? 8 : 80); ++k) {
+    Scene scene = random_body(random, 2 + k % 2, 2 + k % 2, 2);
+    const double ratio = decades(0.1, 10.0);
+    scene.material = {};
+    scene.material.density = 0.2;
+    scene.material.elastic = {ratio, 1.0};
+    const double omega = Parts(scene).spectrum.omega_max;
+    const double weak = decades(3e-3, 0.3);  // branch and dashpot: s^2 + (d + r) s + r d (1 + weak^2) = 0
+    const double dashpot = (1.0 + (1.2 * unit(random) - 0.2) * 2.0 * weak) / (omega * omega);
+    Material& m = scene.material;
+    m.mu_ela = m.mu_vis = weak * weak * dashpot;  // of rate 1
+    m.lambda_ela = m.lambda_vis = ratio * m.mu_ela;
+    m.viscous = {ratio * dashpot, dashpot};
+    m.elastic =
+        k % 5 == 4 ? Moduli{ratio * m.mu_ela * decades(1e-3, 1.0), m.mu_ela * decades(1e-3, 1.0)} : Moduli{};
+    const Parts parts(scene);
+    const TrueSpectrum truth(scene);
+    for (const IntegratorKind integrator : {IntegratorKind::rk4, IntegratorKind::euler}) {
+      const double safe = stable_step(parts.spectrum, integrator);
+      const TrueLimit limit = truth.limit(integrator);
+      if (!limit.determined()) continue;
+      const double step = range_step(parts.model, *parts.solver, parts.spectrum, integrator, 0.5 * safe).step;
+      EXPECT_LE(step, limit.high * (1.0 + 1e-9)) << k;
+      ++tried;
+      found += step > 0.9 * limit.high ? 1 : 0;
+    }
+  }
+  EXPECT_GT(found, 9 * tried / 10);
+}
+
+// Springs e and a branch e1 of a rate R far above all vibrations: a dashpot e1 / R, and Euler's limit is
+// e1 / (e R) however slow the vibration.
+TEST(NumericalRange, VibrationsFarSlowerThanTheFastestRateCount) {
+  std::mt19937 random(49);
+  Scene scene = random_body(random, 2, 14, 9);
+  scene.material = {};
+  scene.material.density = 0.2;
+  scene.material.elastic = {60.0, 30.0};
+  scene.material.lambda_ela = 6.0;
+  scene.material.mu_ela = 3.0;
+  scene.time.integrator = IntegratorKind::euler;
+  scene.time.step = 0.0;
+  for (const double rate : {1e4, 1e7, 1e10, 1e13}) {
+    scene.material.lambda_vis = 6.0 / rate;
+    scene.material.mu_vis = 3.0 / rate;
+    const Spectrum spectrum = Simulation(scene, {.allow_unstable = true}).spectrum();
+    ASSERT_TRUE(spectrum.eigenvalues.empty());
+    EXPECT_LE(stable_step(spectrum, IntegratorKind::euler), 0.1 / rate * (1.0 + 1e-3)) << rate;
+    EXPECT_GE(stable_step(spectrum, IntegratorKind::euler), 0.095 / rate) << rate;
+  }
 }
 
 // Rates of lambda and mu alike, as of one relaxation of Young's modulus with one Poisson ratio: the

@@ -139,7 +139,8 @@ void Core::start(rheo::Scene scene, const rheo::SavedState* saved) {
   rheo::validate(scene);
   auto shared = std::make_shared<const rheo::Scene>(std::move(scene));
   rheo::LiveSettings settings = live_settings(settings_);
-  settings.simulation.nearness = rheo::Nearness::safe;  // made anew at every change
+  // Made anew at every change. (A given step may be beyond the safe bound and stable.)
+  if (shared->time.step == 0.0) settings.simulation.nearness = rheo::Nearness::safe;
   const auto make = [&] {
     return saved ? std::make_unique<rheo::Live>(*shared, settings, *saved)
                  : std::make_unique<rheo::Live>(*shared, settings);

@@ -109,6 +109,7 @@ enum class Kernel {
 
 // What an explicit integrator's stable limit is worth on bodies too large for all their eigenvalues, where it
 // hangs on more than omega_max: some hundred to thousand products with the connection matrices, or none.
+// Steps between the safe and the near limit are refused by the former.
 enum class Nearness { near, safe };
 
 struct SimulationOptions {
