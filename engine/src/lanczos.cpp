@@ -11,7 +11,8 @@ namespace {
 constexpr double misses = 1e-8;  // probability that a lowest eigenvalue is lower than its bound
 // The same of the largest frequency; and by how much of itself its square may be too large.
 constexpr double frequency_misses = 1e-4;
-constexpr double excess = 0.015;
+constexpr double wanted_excess = 0.015;
+constexpr int most_frequency_steps = 56;
 // Residuals, of the largest diagonal entry: one that no longer counts for the largest value, and for any.
 constexpr double exhausted = 1e-6, rounded = 1e-13;
 
@@ -76,11 +77,6 @@ double unlikely(double size, double probability) {
   return std::log(1.648 * std::sqrt(size) / probability);
 }
 
-// How many steps leave at most this part of the spread unresolved.
-int steps_for(double part, double size, double probability) {
-  return static_cast<int>(std::ceil(0.5 * (unlikely(size, probability) / std::sqrt(part) + 1.0)));
-}
-
 }  // namespace
 
 LanczosRun::LanczosRun(const Model& model, const ConstraintSolver& solver, const std::vector<Moduli>& moduli)
@@ -131,8 +127,9 @@ void LanczosRun::step() {
   before_.swap(previous_);
   previous_ = next_ / beta_;
   if (!diagonal_.empty()) off_.push_back(beta_);
-  project(model_.stiffness(moduli_, previous_), next_);
-  model_.multiply_mass(previous_.data(), mass_times_.data());
+  mass_times_ /= beta_;  // of previous_ now
+  model_.stiffness(moduli_, previous_, force_);
+  project(force_, next_);
   const double alpha = next_.dot(mass_times_);
   next_ -= alpha * previous_ + (off_.empty() ? 0.0 : beta_) * before_;
   diagonal_.push_back(alpha);
@@ -149,16 +146,20 @@ RitzBound largest_frequency(const Model& model, const ConstraintSolver& solver,
                             const std::vector<Moduli>& moduli) {
   LanczosRun run(model, solver, moduli);
   if (!run.has_started()) return {};
-  const auto size = static_cast<double>(model.layout.part);
-  const int wanted = steps_for(excess / (1.0 + excess), size, frequency_misses);
+  const double chance = unlikely(static_cast<double>(model.layout.part), frequency_misses);
+  // Largest eigenvalue / largest Ritz value - 1 after k steps.
+  const auto excess = [&](int k) {
+    const double e = std::pow(chance / (2 * k - 1), 2);
+    return e < 1.0 ? e / (1.0 - e) : std::numeric_limits<double>::infinity();
+  };
   bool is_whole = false;
-  while (!is_whole && run.steps() < wanted) {
+  while (!is_whole && run.steps() < most_frequency_steps && !(excess(run.steps()) <= wanted_excess)) {
     run.step();
     // As many steps as there is space for; where rounding has begun it anew, the ends were found before.
     is_whole = run.is_exhausted(exhausted) || run.steps() == run.dimension();
   }
   const double theta = std::max(0.0, largest_value(run.diagonal(), run.off_diagonal(), 1.0));
-  return {std::sqrt((1.0 + (is_whole ? exhausted : excess)) * theta), run.steps()};
+  return {std::sqrt((1.0 + (is_whole ? exhausted : excess(run.steps()))) * theta), run.steps()};
 }
 
 LowestValue lowest_value(const Model& model, const ConstraintSolver& solver,

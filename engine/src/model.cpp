@@ -271,23 +271,30 @@ void Model::multiply_mass(const double* x, double* out) const {
 }
 
 Vector Model::stiffness(const std::vector<Moduli>& moduli, const Vector& x) const {
+  Vector result;
+  stiffness(moduli, x, result);
+  return result;
+}
+
+void Model::stiffness(const std::vector<Moduli>& moduli, const Vector& x, Vector& result) const {
   assert(moduli.size() == patches.size());
-  Vector result = Vector::Zero(x.size());
   const auto size = static_cast<std::size_t>(x.size());
   if (edges) {
+    result.resize(x.size());
     edges->stiffness(moduli.front().lambda, moduli.front().mu, {x.data(), size}, {result.data(), size});
-    return result;
+    return;
   }
+  result.setZero(x.size());
   if (elements) {
     elements->stiffness(moduli, {x.data(), size}, {result.data(), size});
-    return result;
+    return;
   }
   if (!has_several_materials()) {
     const Patch& patch = patches.front();
     const auto [lambda, mu] = moduli.front();
     if (patch.lambda && lambda != 0.0) result += lambda * (patch.j_lambda * x);
     if (patch.mu && mu != 0.0) result += mu * (patch.j_mu * x);
-    return result;
+    return;
   }
   Vector own, force;
   for (std::size_t r = 0; r < patches.size(); ++r) {
@@ -299,7 +306,6 @@ Vector Model::stiffness(const std::vector<Moduli>& moduli, const Vector& x) cons
     if (patch.mu && moduli[r].mu != 0.0) force += moduli[r].mu * (patch.j_mu * own);
     patch.for_each_dof([&](std::size_t i, std::size_t j) { result[j] += force[i]; });
   }
-  return result;
 }
 
 ConstVectorMap sum_of_parts(const Model& model, std::size_t region, Modulus modulus, PartSum sum,

@@ -111,6 +111,7 @@ struct Model {
   void multiply_mass(const double* x, double* out) const;
   // sum over the regions of (lambda J_lambda + mu J_mu) x; moduli by region
   Vector stiffness(const std::vector<Moduli>& moduli, const Vector& x) const;
+  void stiffness(const std::vector<Moduli>& moduli, const Vector& x, Vector& result) const;
 
   bool is_lumped() const { return mass.size() == 0; }
   bool has_several_materials() const { return patches.size() > 1; }
