@@ -15,7 +15,8 @@ namespace {
 constexpr int most_steps = 400;  // of a Lanczos run
 // u and v are looked for up to this: where the numbers that count are of size 1.
 constexpr double largest_multiplier = 1e3;
-// Of the distance from a pole, how far apart numbers may be: 1 / (1 + r z) bends by a fourth of its square.
+// Of the distance from a pole, and from 0, how far apart numbers may be: 1 / (1 + r z) and z^2 bend by a
+// fourth of its square.
 constexpr double near_by = 0.1;
 
 using Point = std::array<double, 2>;
@@ -75,7 +76,7 @@ Direction best_direction(const std::vector<std::complex<double>>& points, Numeri
 }  // namespace
 
 NumericalRange::NumericalRange(const Model& model, const ConstraintSolver& solver)
-    : model_(model), solver_(solver) {
+    : model_(model), solver_(solver), poles_{0.0} {
   for (std::size_t r = 0; r < model.patches.size(); ++r) {
     const Patch& patch = model.patches[r];
     const std::vector<Relaxation> relaxations = relaxations_of(patch.material);

@@ -36,7 +36,7 @@ class NumericalRange {
 
   // Whether one u, v shows for all of these that 1 / z is no eigenvalue, by what is known; hence for what
   // lies between them, whose H is nearly between theirs. That asks for being near to one another, next to the
-  // distance from the poles z = -1 / r: false where they are not.
+  // distance from 0 and from the poles z = -1 / r: false where they are not.
   bool excludes(std::span<const std::complex<double>> z) const;
   // Whether neither z is one, of Re z <= 0 <= Im z, nor any with a larger Im z and a Re z as large: by signs.
   //   Im c(z) / Im z = d - 2 |Re z| sum of e (r = 0) + sum of e / r (1 - 1 / |1 + r z|^2) (r > 0, r |Re z| <
@@ -79,9 +79,9 @@ class NumericalRange {
   const Model& model_;
   const ConstraintSolver& solver_;
   std::vector<Term> terms_;
-  std::vector<Vector> positive_;   // rows of what is known to be positive definite
-  std::vector<Vector> quotients_;  // x^T J_m x of vectors
-  std::vector<std::complex<double>> poles_;
+  std::vector<Vector> positive_;             // rows of what is known to be positive definite
+  std::vector<Vector> quotients_;            // x^T J_m x of vectors
+  std::vector<std::complex<double>> poles_;  // and 0
   int products_ = 0;
   mutable std::int64_t trials_ = 0;
 };

@@ -13,7 +13,7 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 // Of the limit by the witnesses, what is asked for; and what bent edges of the smallest cells may hide.
 constexpr double asked_share = 0.985, bent = 0.997;
-constexpr double near_enough = 0.97;
+constexpr double near_enough = 0.97;  // of it: no more is looked for
 constexpr int most_looks = 100;
 constexpr double most_work = 1e9;  // products times their size: about half a minute on a million triangles
 constexpr std::int64_t most_trials = 4000000;  // about a second

@@ -24,8 +24,8 @@
 //
 // Source   design: Lanczos in the inner product of M for omega_max^2 = largest eigenvalue of
 //          M^-1 (lambda_ela J_lambda + mu_ela J_mu) (of all springs, viscous_max likewise) on what the
-//          constraints leave free, its residual added, capped by the largest element eigenvalue (Irons and
-//          Treharne, 1971)
+//          constraints leave free, bounded from above (src/lanczos.hpp), capped by the largest element
+//          eigenvalue (Irons and Treharne, 1971)
 // Units    rates and omega [1/s], steps [s]
 #pragma once
 
