@@ -35,7 +35,7 @@ class RangeSearch {
     double rate =
         std::max(spectrum.lambda_on ? spectrum.lambda_rate : 0.0, spectrum.mu_on ? spectrum.mu_rate : 0.0);
     for (const Relaxation& each : spectrum.relaxations) rate = std::max(rate, each.rate);
-    largest_ = spectrum.omega_max + std::max(rate, spectrum.viscous_max);
+    largest_ = spectrum.omega_max + spectrum.largest_rate();
     cap_ = 100.0 / std::max(spectrum.omega_max, spectrum.viscous_max);
     if (rate > 0.0) cap_ = std::min(cap_, 0.999 * stable_step_of(-rate, integrator));
     if (integrator == IntegratorKind::rk4) {
@@ -50,24 +50,26 @@ class RangeSearch {
     contact_ = cap_;
   }
 
-  RangeStep find() {
+  double find() {
     double share = asked_share;
+    std::complex<double> last = 0.0;
+    int times = 0;
     for (int looks = 0; looks < most_looks && !has_worked_enough(); ++looks) {
       meet();
       // Of what is stable for sure nothing is to be gained then.
-      if (surely_ >= near_enough * contact_) return {0.0, range_.products()};
+      if (surely_ >= near_enough * contact_) return 0.0;
       const double step = share * (contact_ < cap_ ? contact_ : cap_ / asked_share);
-      if (step <= surely_) return {0.0, range_.products()};
+      if (step <= surely_) return 0.0;
       const std::complex<double> open = first_open(step);
-      if (open == 0.0) return {bent * step, range_.products()};
+      if (open == 0.0) return bent * step;
       // Once by either direction, then less is asked for.
-      times_ = open == last_ ? times_ + 1 : 0;
-      last_ = open;
-      if (times_ > 1) {
+      times = open == last ? times + 1 : 0;
+      last = open;
+      if (times > 1) {
         share *= 0.98;
         continue;
       }
-      range_.look_at(open, times_ == 0 ? NumericalRange::Clearest::part : NumericalRange::Clearest::distance);
+      range_.look_at(open, times == 0 ? NumericalRange::Clearest::part : NumericalRange::Clearest::distance);
     }
     // What is excluded so far.
     double low = surely_, high = contact_;
@@ -75,7 +77,7 @@ class RangeSearch {
       const double middle = std::sqrt(low * high);
       (first_open(middle) == 0.0 ? low : high) = middle;
     }
-    return {low > surely_ ? bent * low : 0.0, range_.products()};
+    return low > surely_ ? bent * low : 0.0;
   }
 
  private:
@@ -196,15 +198,13 @@ class RangeSearch {
   double surely_, largest_ = 0.0, cap_ = 0.0, contact_ = 0.0;
   std::vector<double> places_;
   std::vector<Strip> strips_;
-  std::complex<double> last_ = 0.0;
-  int times_ = 0;
 };
 
 }  // namespace
 
-RangeStep range_step(const Model& model, const ConstraintSolver& solver, const Spectrum& spectrum,
-                     IntegratorKind integrator, double surely) {
-  if (!(surely > 0.0)) return {};
+double range_step(const Model& model, const ConstraintSolver& solver, const Spectrum& spectrum,
+                  IntegratorKind integrator, double surely) {
+  if (!(surely > 0.0)) return 0.0;
   return RangeSearch(model, solver, spectrum, integrator, surely).find();
 }
 

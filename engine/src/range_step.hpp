@@ -16,13 +16,8 @@
 
 namespace rheo {
 
-struct RangeStep {
-  double step = 0.0;  // safe; 0 where nothing could be told
-  int products = 0;   // of matrices with vectors
-};
-
-// `surely`: a step that is stable for sure, > 0.
-RangeStep range_step(const Model& model, const ConstraintSolver& solver, const Spectrum& spectrum,
-                     IntegratorKind integrator, double surely);
+// Safe; 0 where nothing beyond `surely` could be told, a step that is stable for sure, > 0.
+double range_step(const Model& model, const ConstraintSolver& solver, const Spectrum& spectrum,
+                  IntegratorKind integrator, double surely);
 
 }  // namespace rheo

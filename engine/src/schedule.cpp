@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 
@@ -202,16 +203,20 @@ void Schedule::make_spectrum(Nearness nearness) {
       eigenvalues = false;
     }
   };
-  if (sets_.size() <= spectra_taken) {
-    for (const Held& set : sets_) include(*set.solver);
-  } else {
-    include(ConstraintSolver(model_, {}, {}));
-  }
+  for_each_bounding_solver(include);
   s.omega_max = std::min(omega, s.element_bound);
   s.viscous_max = std::min(damping, model_.element_viscous);
   if (!eigenvalues) s.eigenvalues.clear();
   if (has_columns(scene_)) s.baumgarte = scene_.time.baumgarte;
   if (nearness == Nearness::near) find_range_step();
+}
+
+void Schedule::for_each_bounding_solver(const std::function<void(const ConstraintSolver&)>& visit) const {
+  if (sets_.size() > spectra_taken) {
+    visit(ConstraintSolver(model_, {}, {}));
+    return;
+  }
+  for (const Held& set : sets_) visit(*set.solver);
 }
 
 void Schedule::find_range_step() {
@@ -227,14 +232,9 @@ void Schedule::find_range_step() {
   // Baumgarte's pole is the limit, or nearly.
   if (s.baumgarte > 0.0 && surely > 0.97 * stable_step_of(-s.baumgarte, integrator)) return;
   double step = std::numeric_limits<double>::infinity();
-  const auto include = [&](const ConstraintSolver& solver) {
-    if (step > surely) step = std::min(step, range_step(model_, solver, s, integrator, surely).step);
-  };
-  if (sets_.size() <= spectra_taken) {
-    for (const Held& set : sets_) include(*set.solver);
-  } else {
-    include(ConstraintSolver(model_, {}, {}));
-  }
+  for_each_bounding_solver([&](const ConstraintSolver& solver) {
+    if (step > surely) step = std::min(step, range_step(model_, solver, s, integrator, surely));
+  });
   if (step > surely) (integrator == IntegratorKind::rk4 ? s.rk4_step : s.euler_step) = step;
 }
 

@@ -4,6 +4,7 @@
 // Errors   Error::Kind::input from held_dofs and ConstraintSolver, for every interval at construction
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -76,6 +77,8 @@ class Schedule {
   Held make_held(const Signature& active) const;
   void make_spectrum(Nearness nearness);
   void find_range_step();
+  // Of every set of constraints, or where they are many of none: a body that is held less has all of it.
+  void for_each_bounding_solver(const std::function<void(const ConstraintSolver&)>& visit) const;
 
   const Scene& scene_;
   const Model& model_;
