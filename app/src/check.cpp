@@ -159,10 +159,10 @@ struct Limits {
   Limit rk4, euler;
 };
 
-// As a run with that integrator would find it, by all eigenvalues or the numerical range: up to where that
-// takes a second.
-Limit limit_of(const rheo::Scene& scene, const rheo::Simulation& simulation,
-               rheo::IntegratorKind integrator) {
+// As a run with that integrator would find it, by eigenvalues or the numerical range: up to where that takes
+// a second, or where one limit hangs on, half a minute.
+Limit limit_of(const rheo::Scene& scene, const rheo::Simulation& simulation, rheo::IntegratorKind integrator,
+               Progress& progress) {
   constexpr int small = 30000;  // nodes
   const auto of = [&](const rheo::Spectrum& spectrum) {
     return Limit{rheo::stable_step(spectrum, integrator), rheo::stable_step_is_bound(spectrum, integrator)};
@@ -174,6 +174,7 @@ Limit limit_of(const rheo::Scene& scene, const rheo::Simulation& simulation,
   probe.time.step = scene.time.duration;  // beyond any
   rheo::SimulationOptions any_step;
   any_step.allow_unstable = true;
+  any_step.searching = stable_step_on(progress);
   return of(rheo::Simulation(std::move(probe), any_step).spectrum());
 }
 
@@ -310,8 +311,8 @@ void check_loaded(const Options& options, rheo::Scene scene) {
   std::optional<OutputFolder> folder;  // refused before all the work
   if (options.plot) folder.emplace(options.folder, options.force ? Replace::earlier_run : Replace::nothing);
   std::optional<rheo::AccuracyPlan> plan;
+  Progress progress(options.quiet ? Verbosity::quiet : Verbosity::normal);
   if (scene.time.accuracy > 0.0) {
-    Progress progress(options.quiet ? Verbosity::quiet : Verbosity::normal);
     rheo::SimulationOptions told = options.simulation;
     told.planning = trial_runs_on(progress);
     plan = rheo::plan_accuracy(scene, told);
@@ -324,8 +325,8 @@ void check_loaded(const Options& options, rheo::Scene scene) {
   rheo::Scene shown = scene;
   if (time.step == 0.0) shown.time.integrator = rheo::IntegratorKind::rk4;
   std::optional<rheo::Simulation> simulation(std::in_place, std::move(shown), any_step);
-  const Limits limits{limit_of(scene, *simulation, rheo::IntegratorKind::rk4),
-                      limit_of(scene, *simulation, rheo::IntegratorKind::euler)};
+  const Limits limits{limit_of(scene, *simulation, rheo::IntegratorKind::rk4, progress),
+                      limit_of(scene, *simulation, rheo::IntegratorKind::euler, progress)};
   const double limit = time.integrator == rheo::IntegratorKind::euler ? limits.euler.step
                        : time.integrator == rheo::IntegratorKind::rk4 ? limits.rk4.step
                                                                       : simulation->stable_step();
@@ -335,6 +336,7 @@ void check_loaded(const Options& options, rheo::Scene scene) {
   if (time.step > limit * (1.0 + 1e-12) && !options.simulation.allow_unstable) verdict = Verdict::too_long;
   if (verdict == Verdict::accepted && simulation->scene().time.integrator != time.integrator)
     simulation.emplace(scene, any_step);
+  progress.end();
   fmt::print("{}: {}\n", printable(options.scene.string()), printable(scene.title));
   for (const std::string& note : run_notes(scene)) fmt::print("  note: {}\n", printable(note));
   print_mesh(scene);

@@ -87,4 +87,13 @@ std::function<void(int, double)> trial_runs_on(Progress& progress) {
   };
 }
 
+std::function<void(double)> stable_step_on(Progress& progress) {
+  return [&progress, has_begun = false](double done) mutable {
+    constexpr std::int64_t hundredths = 100;
+    if (!has_begun) progress.begin("largest stable step", hundredths);
+    has_begun = true;
+    progress.update(static_cast<std::int64_t>(done * hundredths));
+  };
+}
+
 }  // namespace app

@@ -40,5 +40,7 @@ class Progress {
 
 // For SimulationOptions::planning: a phase a trial run.
 std::function<void(int, double)> trial_runs_on(Progress& progress);
+// For SimulationOptions::searching.
+std::function<void(double)> stable_step_on(Progress& progress);
 
 }  // namespace app

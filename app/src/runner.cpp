@@ -155,6 +155,7 @@ rheo::Simulation Run::build(rheo::Scene scene) {
   const Timed timed(seconds_.build);
   rheo::SimulationOptions simulation_options = options_.simulation;
   simulation_options.planning = trial_runs_on(progress_);
+  simulation_options.searching = stable_step_on(progress_);
   rheo::Simulation simulation(std::move(scene), simulation_options);
   progress_.end();
   if (start) rheo::begin_from(simulation, *start);

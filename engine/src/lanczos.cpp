@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
+
+#include "pseudo_random.hpp"
 
 namespace rheo {
 namespace {
@@ -15,20 +16,6 @@ constexpr double wanted_excess = 0.015;
 constexpr int most_frequency_steps = 56;
 // Residuals, of the largest diagonal entry: one that no longer counts for the largest value, and for any.
 constexpr double exhausted = 1e-6, rounded = 1e-13;
-
-// Numbers in [-1, 1) that are the same everywhere (splitmix64).
-double pseudo_random(std::uint64_t& state) {
-  state += 0x9e3779b97f4a7c15ULL;
-  std::uint64_t z = state;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return static_cast<double>(static_cast<std::int64_t>(z ^ (z >> 31))) * 0x1p-63;
-}
-
-double nearly_normal(std::uint64_t& state) {
-  const double first = pseudo_random(state), second = pseudo_random(state);
-  return first + second + pseudo_random(state);
-}
 
 // The largest eigenvalue of the tridiagonal matrix, from above, to 1e-12 of its entries: bisection by the
 // signs of its pivots. (QR iteration for all of them takes longer, and does not always end where the entries

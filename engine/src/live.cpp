@@ -6,10 +6,21 @@
 #include "hands.hpp"
 
 namespace rheo {
+namespace {
+
+// What is known of the scene's own eigenvalues does not hold for what hands hold besides.
+SimulationOptions options_of(const LiveSettings& settings) {
+  SimulationOptions options = settings.simulation;
+  if (options.nearness == Nearness::near) options.nearness = Nearness::range;
+  return options;
+}
+
+}  // namespace
 
 // The hands look at the simulation's own scene, which does not move.
 Live::Live(Scene scene, LiveSettings settings)
-    : simulation_(std::make_unique<Simulation>(std::move(scene), settings.simulation)), rate_(settings.rate) {
+    : simulation_(std::make_unique<Simulation>(std::move(scene), options_of(settings))),
+      rate_(settings.rate) {
   hands_ = std::make_unique<Hands>(simulation_->scene(), settings);
   simulation_->attach(*hands_);
 }

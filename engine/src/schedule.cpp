@@ -5,10 +5,12 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <optional>
 
 #include "full_spectrum.hpp"
 #include "lanczos.hpp"
 #include "range_step.hpp"
+#include "regions.hpp"
 #include "step_choice.hpp"
 #include "timeline.hpp"
 
@@ -22,7 +24,8 @@ constexpr std::size_t spectra_taken = 8;   // beyond it the free body's frequenc
 
 }  // namespace
 
-Schedule::Schedule(const Scene& scene, const Model& model, double memory, Nearness nearness)
+Schedule::Schedule(const Scene& scene, const Model& model, double memory, Nearness nearness,
+                   const std::function<void(double)>& searching)
     : scene_(scene),
       model_(model),
       memory_(memory),
@@ -40,7 +43,7 @@ Schedule::Schedule(const Scene& scene, const Model& model, double memory, Nearne
     if (sets_.size() >= solvers_kept) made = {place->first, {}, nullptr};
     sets_.push_back(std::move(made));
   }
-  make_spectrum(nearness);
+  make_spectrum(nearness, searching);
 }
 
 void load_pattern(const Mesh& mesh, std::span<const Edge> edges, LoadPattern& out) {
@@ -136,7 +139,7 @@ std::shared_ptr<const ConstraintSolver> Schedule::solver_holding(std::size_t i,
   return holding_.back().solver;
 }
 
-void Schedule::make_spectrum(Nearness nearness) {
+void Schedule::make_spectrum(Nearness nearness, const std::function<void(double)>& searching) {
   Spectrum& s = spectrum_;
   s.lambda_on = model_.layout.lambda;
   s.mu_on = model_.layout.mu;
@@ -208,7 +211,7 @@ void Schedule::make_spectrum(Nearness nearness) {
   s.viscous_max = std::min(damping, model_.element_viscous);
   if (!eigenvalues) s.eigenvalues.clear();
   if (has_columns(scene_)) s.baumgarte = scene_.time.baumgarte;
-  if (nearness == Nearness::near) find_range_step();
+  if (nearness != Nearness::safe) find_range_step(nearness, searching);
 }
 
 void Schedule::for_each_bounding_solver(const std::function<void(const ConstraintSolver&)>& visit) const {
@@ -219,23 +222,49 @@ void Schedule::for_each_bounding_solver(const std::function<void(const Constrain
   for (const Held& set : sets_) visit(*set.solver);
 }
 
-void Schedule::find_range_step() {
+void Schedule::find_range_step(Nearness nearness, const std::function<void(double)>& searching) {
   Spectrum& s = spectrum_;
   const IntegratorKind integrator = scene_.time.integrator;
   if (!stable_step_is_bound(s, integrator)) return;
+  const bool is_euler = integrator == IntegratorKind::euler;
   // RK4's limit is omega_max's but for rates beside it.
-  if (integrator == IntegratorKind::rk4 &&
-      std::max(s.largest_rate(), s.viscous_max) <= rates_that_matter * s.omega_max)
-    return;
+  if (!is_euler && std::max(s.largest_rate(), s.viscous_max) <= rates_that_matter * s.omega_max) return;
   const double surely = stable_step(s, integrator);
   if (scene_.time.step > 0.0 && scene_.time.step <= surely) return;
   // Baumgarte's pole is the limit, or nearly.
-  if (s.baumgarte > 0.0 && surely > 0.97 * stable_step_of(-s.baumgarte, integrator)) return;
-  double step = std::numeric_limits<double>::infinity();
+  if (s.baumgarte > 0.0 && surely > 0.97 * stable_step_of(-s.baumgarte, integrator)) {
+    if (is_euler) s.near_euler_step = surely;
+    return;
+  }
+  // (Other eigenvalues than the free body's take the place of the sets' own.)
+  const bool by_discs = is_euler && nearness == Nearness::near && sets_.size() <= spectra_taken &&
+                        NearbyEigenvalues::can_take(model_, memory_);
+  std::optional<Model> assembled;
+  double step = std::numeric_limits<double>::infinity(), near_step = step;
+  std::size_t set = 0;
   for_each_bounding_solver([&](const ConstraintSolver& solver) {
-    if (step > surely) step = std::min(step, range_step(model_, solver, s, integrator, surely));
+    DiscSearch discs;
+    discs.most_work /= static_cast<double>(sets_.size());
+    discs.eigenvalues = [&] {
+      const bool has_matrices = !model_.edges && !model_.elements;
+      if (!has_matrices && !assembled) assembled.emplace(scene_.mesh, regions_of(scene_));
+      return NearbyEigenvalues(scene_.mesh, has_matrices ? model_ : *assembled, solver);
+    };
+    if (searching) {
+      discs.told = [&](double part) {
+        searching((static_cast<double>(set) + part) / static_cast<double>(sets_.size()));
+      };
+    }
+    const bool is_asked_for = step > surely || near_step > 0.0;
+    const RangeStep found =
+        is_asked_for ? range_step(model_, solver, s, integrator, surely, by_discs ? &discs : nullptr)
+                     : RangeStep{};
+    step = std::min(step, found.step);
+    near_step = std::min(near_step, found.near_step);
+    ++set;
   });
-  if (step > surely) (integrator == IntegratorKind::rk4 ? s.rk4_step : s.euler_step) = step;
+  if (step > surely) (is_euler ? s.euler_step : s.rk4_step) = step;
+  if (near_step > 0.0 && std::isfinite(near_step)) s.near_euler_step = near_step;
 }
 
 void Schedule::courses(const Signature& active, double inside,

@@ -32,7 +32,8 @@ void add_traction(Interval& interval, const LoadPattern& pattern, const std::arr
 class Schedule {
  public:
   // Both must outlive this. `memory`: of ConstraintSolver.
-  Schedule(const Scene& scene, const Model& model, double memory = 0.0, Nearness nearness = Nearness::near);
+  Schedule(const Scene& scene, const Model& model, double memory = 0.0, Nearness nearness = Nearness::near,
+           const std::function<void(double)>& searching = {});
 
   std::size_t interval_count() const { return events_.size(); }
   double begin(std::size_t i) const { return events_[i]; }
@@ -75,8 +76,8 @@ class Schedule {
     std::shared_ptr<const ConstraintSolver> solver;
   };
   Held make_held(const Signature& active) const;
-  void make_spectrum(Nearness nearness);
-  void find_range_step();
+  void make_spectrum(Nearness nearness, const std::function<void(double)>& searching);
+  void find_range_step(Nearness nearness, const std::function<void(double)>& searching);
   // Of every set of constraints, or where they are many of none: a body that is held less has all of it.
   void for_each_bounding_solver(const std::function<void(const ConstraintSolver&)>& visit) const;
 

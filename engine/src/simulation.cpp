@@ -43,7 +43,7 @@ struct Simulation::Impl {
         scene(decided(std::move(s), plan)),
         model(scene.mesh, regions_of(scene), assembly_for(scene, options.kernel)),
         asked(options),
-        schedule(scene, model, options.memory, options.nearness),
+        schedule(scene, model, options.memory, options.nearness, options.searching),
         spectrum(schedule.spectrum()),
         body(make_body(scene, model, options.threads)),
         integrator(make_integrator(scene.time.integrator, body->size(),
@@ -189,6 +189,7 @@ void Simulation::attach(Hands& hands) {
   // Beside the scene's constraints only more are held, and a held body's frequencies interlace with the
   // free one's: the limit stands. Eigenvalues of the scene's own sets say nothing of others.
   impl_->spectrum.eigenvalues.clear();
+  impl_->spectrum.near_euler_step = 0.0;
   impl_->stepping.attach(hands, impl_->limits());
 }
 

@@ -95,6 +95,7 @@ double Spectrum::slowest_rate() const {
 
 bool stable_step_is_bound(const Spectrum& spectrum, IntegratorKind integrator) {
   if (has_no_limit(integrator) || !spectrum.eigenvalues.empty()) return false;
+  if (integrator == IntegratorKind::euler && spectrum.near_euler_step > 0.0) return false;
   if (spectrum.viscous_max > 0.0 || spectrum.several_materials) return true;
   if (integrator != IntegratorKind::euler) return false;
   return spectrum.relaxations.size() > 1 ||
@@ -398,7 +399,7 @@ double stable_step(const Spectrum& spectrum, IntegratorKind integrator) {
     // Where damping is lost in what rounding may have made of the eigenvalues, the samples know more of it.
     step = std::max(step, 0.998 * exact);
   }
-  step = std::max(step, rk4 ? spectrum.rk4_step : spectrum.euler_step);
+  step = std::max(step, rk4 ? spectrum.rk4_step : std::max(spectrum.euler_step, spectrum.near_euler_step));
   // The double pole of a constraint: at the very edge it grows linearly, hence strictly inside.
   if (spectrum.baumgarte > 0.0)
     step = std::min(step, 0.998 * stable_step_of(-spectrum.baumgarte * (1.0 + 1e-6), integrator));

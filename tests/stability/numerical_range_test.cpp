@@ -12,11 +12,9 @@
 #include <random>
 
 #include "lanczos.hpp"
-#include "model.hpp"
 #include "range_step.hpp"
-#include "regions.hpp"
 #include "rheo/simulation.hpp"
-#include "schedule.hpp"
+#include "stability/random_bodies.hpp"
 #include "stability/runs/outer_limit.hpp"
 #include "stability/runs/true_limit.hpp"
 #include "support/exact.hpp"
@@ -28,36 +26,6 @@ namespace rheo::test {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-// Irregular, every third one free; of one or of two materials, these in turns or in halves.
-Scene random_body(std::mt19937& random, int k, int nx, int ny) {
-  std::uniform_real_distribution<double> unit(0.0, 1.0);
-  Scene scene;
-  scene.mesh = rectangle({1.0, 0.3 + unit(random)}, nx, ny, Diagonal::alternating);
-  for (Vec2& p : scene.mesh.points) {
-    p.x += 0.1 * unit(random) / (nx - 1);
-    p.y += 0.05 * unit(random) / (ny - 1);
-  }
-  prepare(scene.mesh);
-  if (k % 3 != 0)
-    scene.fixes.push_back({nodes_of(scene.mesh.edge_groups.at("left")), Axis::both, {}, "left"});
-  const double frequency = 4.0 * (nx - 1);  // about that of the fastest vibrations
-  scene.material = random_material(random, 0.2, frequency, 30.0);
-  if (k % 4 < 2) {
-    const double contrast = std::pow(10.0, 2.0 * unit(random) - 1.0);
-    scene.regions = {{"other", random_material(random, 0.3, frequency * contrast, 30.0), {}, "other"}};
-    const int count = scene.mesh.triangle_count();
-    for (int e = 0; e < count; ++e) scene.region_of_triangle.push_back(k % 8 < 4 ? e % 2 : e < count / 2);
-  }
-  scene.time.duration = 1e-11;
-  scene.time.step = 1e-12;
-  return scene;
-}
-
-void set_mass(Scene& scene, Mass mass) {
-  scene.material.mass = mass;
-  for (Region& region : scene.regions) region.material.mass = mass;
-}
 
 // Eigenvalues of M^-1 (lambda J_lambda + mu J_mu) on the nodes that no fix holds, rising.
 Eigen::VectorXd quotients_of(const Scene& scene, const Moduli& moduli) {
@@ -73,22 +41,6 @@ Eigen::VectorXd quotients_of(const Scene& scene, const Moduli& moduli) {
       j(free, free), dense.mass(free, free), Eigen::EigenvaluesOnly);
   return solved.eigenvalues();
 }
-
-// What the engine has of a scene, without its eigenvalues.
-struct Parts {
-  explicit Parts(const Scene& scene)
-      : model(scene.mesh, regions_of(scene)),
-        schedule(scene, model, 0.0, Nearness::safe),
-        solver(schedule.interval(0).solver),
-        spectrum(schedule.spectrum()) {
-    spectrum.eigenvalues.clear();
-  }
-
-  Model model;
-  Schedule schedule;
-  std::shared_ptr<const ConstraintSolver> solver;
-  Spectrum spectrum;
-};
 
 TEST(NumericalRange, LowestEigenvalueIsBetweenItsBoundAndTheRitzValue) {
   std::mt19937 random(41);
@@ -188,7 +140,7 @@ TEST(NumericalRange, StepIsNeverAboveTheTruthAndRk4sIsNear) {
       const double safe = stable_step(parts.spectrum, integrator);
       const TrueLimit limit = truth.limit(integrator);
       if (!limit.determined() || !(safe > 0.0) || std::isinf(safe)) continue;
-      const double found = range_step(parts.model, *parts.solver, parts.spectrum, integrator, safe);
+      const double found = range_step(parts.model, *parts.solver, parts.spectrum, integrator, safe).step;
       const double best = std::max(found, safe);
       EXPECT_LE(best, limit.high * (1.0 + 1e-9)) << k;
       const bool is_rk4 = integrator == IntegratorKind::rk4;
@@ -240,7 +192,7 @@ TEST(NumericalRange, StepIsNotAboveTheTruthBesideAPole) {
       const double safe = stable_step(parts.spectrum, integrator);
       const TrueLimit limit = truth.limit(integrator);
       if (!limit.determined()) continue;
-      const double step = range_step(parts.model, *parts.solver, parts.spectrum, integrator, 0.5 * safe);
+      const double step = range_step(parts.model, *parts.solver, parts.spectrum, integrator, 0.5 * safe).step;
       EXPECT_LE(step, limit.high * (1.0 + 1e-9)) << k;
       ++tried;
       found += step > 0.9 * limit.high ? 1 : 0;
@@ -317,8 +269,6 @@ TEST(NumericalRange, EulersStepIsNearWhereModuliRelaxAlike) {
   }
 }
 
-// Rates of lambda and mu up to `apart` from one another, of one material or of two that are up to three times
-// as stiff as one another.
 TEST(NumericalRange, EulersStepIsNearWhereRatesAreNotFarApart) {
   struct Case {
     double apart;
@@ -327,39 +277,18 @@ TEST(NumericalRange, EulersStepIsNearWhereRatesAreNotFarApart) {
   };
   for (const Case& c : {Case{3.0, false, 0.95}, Case{10.0, false, 0.88}, Case{3.0, true, 0.85}}) {
     std::mt19937 random(5);
-    std::uniform_real_distribution<double> unit(0.0, 1.0);
-    const auto decades = [&](double low, double high) { return low * std::pow(high / low, unit(random)); };
     double lowest = 1.0, sum = 0.0;
     int count = 0;
     for (int k = 0; k < (is_sanitized ? 4 : 30); ++k) {
       Scene scene = random_body(random, 2 + k % 2, 4 + k % 2, 3);
-      scene.regions.clear();
-      scene.region_of_triangle.clear();
-      const double slowest = 150.0 * decades(1e-3, 1.0);  // beside vibrations of 50 to 300
-      const auto material = [&](double mu) {
-        Material m;
-        m.density = 0.2;
-        m.mu_ela = mu;
-        m.lambda_ela = mu * decades(0.3, 10.0);
-        m.mu_vis = m.mu_ela / (slowest * decades(1.0, c.apart));
-        m.lambda_vis = m.lambda_ela / (slowest * decades(1.0, c.apart));
-        if (k % 3 == 0) m.elastic = {0.5 * m.lambda_ela, 0.5 * m.mu_ela};
-        return m;
-      };
-      scene.material = material(30.0);
-      if (c.two) {
-        scene.regions = {{"other", material(30.0 * decades(0.3, 3.0)), {}, "other"}};
-        const int triangles = scene.mesh.triangle_count();
-        for (int e = 0; e < triangles; ++e)
-          scene.region_of_triangle.push_back(k % 2 == 0 ? e % 2 : e < triangles / 2);
-      }
+      set_rates_apart(scene, random, k, c.apart, c.two ? 2 : 1);
       scene.time.integrator = IntegratorKind::euler;
       const Parts parts(scene);
       const TrueLimit limit = TrueSpectrum(scene).limit(IntegratorKind::euler);
       ASSERT_TRUE(limit.determined()) << k;
       const double safe = stable_step(parts.spectrum, IntegratorKind::euler);
-      const double found =
-          std::max(safe, range_step(parts.model, *parts.solver, parts.spectrum, IntegratorKind::euler, safe));
+      const double found = std::max(
+          safe, range_step(parts.model, *parts.solver, parts.spectrum, IntegratorKind::euler, safe).step);
       EXPECT_LE(found, limit.high * (1.0 + 1e-9)) << k;
       EXPECT_GE(found, c.least * limit.low) << k;
       lowest = std::min(lowest, found / limit.high);

@@ -108,9 +108,12 @@ enum class Kernel {
 };
 
 // What an explicit integrator's stable limit is worth on bodies too large for all their eigenvalues, where it
-// hangs on more than omega_max: some hundred to thousand products with the connection matrices, or none.
-// Steps between the safe and the near limit are refused by the former.
-enum class Nearness { near, safe };
+// hangs on more than omega_max. Steps between one and the next are refused by the latter.
+enum class Nearness {
+  near,   // Euler: by the eigenvalues that it hangs on, up to half a minute for each set of constraints
+  range,  // some hundred to thousand products with the connection matrices; stable whatever is held besides
+  safe    // none
+};
 
 struct SimulationOptions {
   bool allow_unstable = false;  // run a step beyond the stable limit instead of refusing it
@@ -123,6 +126,8 @@ struct SimulationOptions {
   // Where the scene asks for an accuracy: told at each output which trial run of the choice (1, 2, ...) has
   // come how far (up to 1).
   std::function<void(int, double)> planning = {};
+  // Where Nearness::near takes long: told now and then what part of the longest search there may be is done.
+  std::function<void(double)> searching = {};
 };
 
 class Simulation {

@@ -19,8 +19,9 @@
 //
 //   s + sum over k of c_k / (s + r_k) + d = 0,   sum c_k <= omega_max^2,   d <= viscous_max
 //
-// On bodies too large for all their eigenvalues the numerical range of the whole operator
-// (src/numerical_range.hpp) says more.
+// On bodies too large for all their eigenvalues the numerical range of the whole operator says more
+// (src/numerical_range.hpp), and Euler's limit is told by those that it hangs on
+// (src/nearby_eigenvalues.hpp).
 //
 // Source   design: Lanczos in the inner product of M for omega_max^2 = largest eigenvalue of
 //          M^-1 (lambda_ela J_lambda + mu_ela J_mu) (of all springs, viscous_max likewise) on what the
@@ -67,6 +68,9 @@ struct Spectrum {
   // By the numerical range of such a scene that is too large for them, under every set of constraints: a
   // stable step of its integrator [s]; 0 where it was not looked for, or is not beyond what the rest says.
   double rk4_step = 0.0, euler_step = 0.0;
+  // Euler's by the eigenvalues that it hangs on, likewise [s]: at least 95 % of the limit. 0 where it was not
+  // looked for, or takes too long.
+  double near_euler_step = 0.0;
 
   // No eigenvalue's real part is below -largest_rate(): of the branches and the viscous part [1/s].
   double largest_rate() const;
@@ -78,8 +82,9 @@ struct Spectrum {
 // damping in some mode), infinite where every step is (exponential, implicit: always).
 double stable_step(const Spectrum& spectrum, IntegratorKind integrator);
 
-// Whether that is only a safe bound, the true limit possibly larger: Euler, and RK4 with a viscous part or
-// several materials, on scenes too large for their eigenvalues.
+// Whether that is only a safe bound, the true limit possibly larger: Euler where the eigenvalues that it
+// hangs on take too long to find, and RK4 with a viscous part or several materials, on scenes too large for
+// all.
 bool stable_step_is_bound(const Spectrum& spectrum, IntegratorKind integrator);
 
 // The same for one eigenvalue s (Re s <= 0), used above and by the tests on exact spectra.
