@@ -20,6 +20,7 @@
 #include "printable.hpp"
 #include "progress.hpp"
 #include "rheo/deformation.hpp"
+#include "rheo/error.hpp"
 #include "rheo/simulation.hpp"
 #include "run_notes.hpp"
 #include "scene_parts.hpp"
@@ -160,20 +161,24 @@ struct Limits {
 };
 
 // As a run with that integrator would find it, by eigenvalues or the numerical range: up to where that takes
-// a second, or where one limit hangs on, half a minute.
+// some seconds; up to half a minute where the scene asks for it.
 Limit limit_of(const rheo::Scene& scene, const rheo::Simulation& simulation, rheo::IntegratorKind integrator,
                Progress& progress) {
-  constexpr int small = 30000;  // nodes
+  constexpr int small = 12000, middle = 30000;  // nodes
   const auto of = [&](const rheo::Spectrum& spectrum) {
     return Limit{rheo::stable_step(spectrum, integrator), rheo::stable_step_is_bound(spectrum, integrator)};
   };
   const Limit known = of(simulation.spectrum());
-  if (!known.bound || scene.mesh.node_count() > small) return known;
+  const rheo::TimeSettings& told = simulation.scene().time;
+  const bool was_looked_for = told.integrator == integrator && told.step == 0.0;
+  if (!known.bound || was_looked_for || scene.mesh.node_count() > middle) return known;
   rheo::Scene probe = scene;
   probe.time.integrator = integrator;
-  probe.time.step = scene.time.duration;  // beyond any
+  probe.time.step = std::max(scene.time.duration, 2.0 * known.step);  // beyond what is sure
   rheo::SimulationOptions any_step;
   any_step.allow_unstable = true;
+  if (scene.mesh.node_count() > small && scene.time.integrator != integrator)
+    any_step.nearness = rheo::Nearness::range;
   any_step.searching = stable_step_on(progress);
   return of(rheo::Simulation(std::move(probe), any_step).spectrum());
 }
@@ -307,6 +312,21 @@ void print_cost(rheo::Simulation& simulation, Verdict verdict) {
       static_cast<double>(shapes) * per_node * scene.mesh.node_count() / 1e6);
 }
 
+// With any step that is given; with Euler where it has one; else as RK4.
+rheo::Simulation built_for(const rheo::Scene& scene, const rheo::SimulationOptions& options) {
+  if (scene.time.step > 0.0) return rheo::Simulation(scene, options);
+  if (scene.time.integrator == rheo::IntegratorKind::euler) {
+    try {
+      return rheo::Simulation(scene, options);
+    } catch (const rheo::Error&) {
+      // Said below.
+    }
+  }
+  rheo::Scene shown = scene;
+  shown.time.integrator = rheo::IntegratorKind::rk4;
+  return rheo::Simulation(std::move(shown), options);
+}
+
 void check_loaded(const Options& options, rheo::Scene scene) {
   std::optional<OutputFolder> folder;  // refused before all the work
   if (options.plot) folder.emplace(options.folder, options.force ? Replace::earlier_run : Replace::nothing);
@@ -319,12 +339,11 @@ void check_loaded(const Options& options, rheo::Scene scene) {
     scene = rheo::with_plan(std::move(scene), *plan);
   }
   const rheo::TimeSettings& time = scene.time;
-  // The report comes before a refusal: built with any step, and where Euler has none, as RK4.
+  // The report comes before a refusal: built with any step.
   rheo::SimulationOptions any_step = options.simulation;
   any_step.allow_unstable = true;
-  rheo::Scene shown = scene;
-  if (time.step == 0.0) shown.time.integrator = rheo::IntegratorKind::rk4;
-  std::optional<rheo::Simulation> simulation(std::in_place, std::move(shown), any_step);
+  any_step.searching = stable_step_on(progress);
+  std::optional<rheo::Simulation> simulation = built_for(scene, any_step);
   const Limits limits{limit_of(scene, *simulation, rheo::IntegratorKind::rk4, progress),
                       limit_of(scene, *simulation, rheo::IntegratorKind::euler, progress)};
   const double limit = time.integrator == rheo::IntegratorKind::euler ? limits.euler.step

@@ -1,4 +1,5 @@
 // The command check: what a scene is and what it would cost, without a run.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -12,6 +13,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 class Check : public ProgramTest {};
 
@@ -117,6 +119,26 @@ TEST_F(Check, SaysThatEulerHasNoStableStepWithoutDamping) {
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
   EXPECT_EQ(row(finished.out, "stable euler"), "none: undamped");
   EXPECT_EQ(row(finished.out, "mu"), "5 Pa, never relaxes");
+}
+
+// Two materials on too many triangles for all eigenvalues; the same limit whatever the scene's own
+// integrator, and a run's.
+TEST_F(Check, EulersLimitOnALargerBodyIsKnown) {
+  std::string text = small_beam_with("nodes = [5, 2]", "nodes = [25, 9]");
+  text +=
+      "[[region]]\nname = \"half\"\nbox = [0.0, 0.0, 0.5, 1.0]\n[region.material]\n"
+      "lambda_ela = 3.0\nmu_ela = 4.0\nlambda_vis = 100.0\nmu_vis = 2.0\ndensity = 0.3\n";
+  write("two.toml", text);
+  const Finished finished = rheo({"check", "two.toml"});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  const std::string limit = row(finished.out, "stable euler");
+  EXPECT_THAT(limit, Not(HasSubstr("at least"))) << finished.out;
+  EXPECT_EQ(row(rheo({"check", "two.toml", "--integrator", "euler"}).out, "stable euler"), limit);
+  EXPECT_EQ(row(rheo({"check", "two.toml", "--integrator", "euler", "--step", "1e-9"}).out, "stable euler"),
+            limit);
+  const Finished refused = rheo(
+      {"run", "two.toml", "--integrator", "euler", "--step", fmt::format("{:.6g}", 1.01 * std::stod(limit))});
+  expect_failure(refused, 2, {"beyond the largest stable step of euler, " + limit});
 }
 
 TEST_F(Check, ReportsBeforeItRefusesAStepBeyondTheLimit) {

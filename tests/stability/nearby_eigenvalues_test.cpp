@@ -19,6 +19,7 @@
 #include "rheo/simulation.hpp"
 #include "stability/random_bodies.hpp"
 #include "stability/runs/true_limit.hpp"
+#include "stability/scene_parts.hpp"
 #include "support/sanitized.hpp"
 
 namespace rheo::test {

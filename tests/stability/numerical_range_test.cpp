@@ -17,6 +17,7 @@
 #include "stability/random_bodies.hpp"
 #include "stability/runs/outer_limit.hpp"
 #include "stability/runs/true_limit.hpp"
+#include "stability/scene_parts.hpp"
 #include "support/exact.hpp"
 #include "support/sanitized.hpp"
 #include "support/scenes.hpp"

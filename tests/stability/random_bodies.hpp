@@ -1,13 +1,9 @@
-// Random bodies for stable steps: irregular, of any material, and what the engine has of one.
+// Random bodies for stable steps: irregular, of any material.
 #pragma once
 
 #include <cmath>
-#include <memory>
 #include <random>
 
-#include "model.hpp"
-#include "regions.hpp"
-#include "schedule.hpp"
 #include "support/scenes.hpp"
 #include "support/whole_materials.hpp"
 
@@ -68,21 +64,5 @@ inline void set_rates_apart(Scene& scene, std::mt19937& random, int k, double ap
   for (int e = 0; e < triangles; ++e)
     scene.region_of_triangle.push_back(k % 2 == 0 ? e % 2 : e < triangles / 2);
 }
-
-// What the engine has of a scene, without its eigenvalues.
-struct Parts {
-  explicit Parts(const Scene& scene)
-      : model(scene.mesh, regions_of(scene)),
-        schedule(scene, model, 0.0, Nearness::safe),
-        solver(schedule.interval(0).solver),
-        spectrum(schedule.spectrum()) {
-    spectrum.eigenvalues.clear();
-  }
-
-  Model model;
-  Schedule schedule;
-  std::shared_ptr<const ConstraintSolver> solver;
-  Spectrum spectrum;
-};
 
 }  // namespace rheo::test
