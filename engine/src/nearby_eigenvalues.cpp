@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 
 #include "complex_symmetric.hpp"
@@ -15,13 +16,15 @@
 namespace rheo {
 namespace {
 
-constexpr Eigen::Index more_vectors = 40, most_vectors = 300;
+// Of a basis: about a third of its vectors make eigenvalues, and it takes their square of time.
+constexpr Eigen::Index first_vectors = 45, more_vectors = 40, most_vectors = 300;
 constexpr double most_numbers = 3.2e7;  // of a basis: 500 MB
 // Residual of (operator - c)^-1, of its eigenvalue.
 constexpr double converged = 1e-6;
 // How far a disc reaches, of the distance of the outermost eigenvalue that has converged, as all nearer ones
 // have further, and of the nearest that has not: one at half its distance would outgrow it with every vector.
 constexpr double reach = 0.9, empty_reach = 0.5;
+constexpr double rounding_without_pivots = 1e-13;  // of the matrix: more asks for pivots
 
 // How many of shifts and small turns hold what is held.
 int rigid_motions(const Mesh& mesh, const ConstraintSolver& solver) {
@@ -79,6 +82,18 @@ Eigen::SparseMatrix<Scalar> bordered(const Eigen::SparseMatrix<Scalar>& matrix,
   return result;
 }
 
+// Of a column's entries: a norm of a symmetric matrix.
+double largest_sum(const Eigen::SparseMatrix<std::complex<double>>& matrix) {
+  double largest = 0.0;
+  for (Eigen::Index j = 0; j < matrix.outerSize(); ++j) {
+    double sum = 0.0;
+    for (Eigen::SparseMatrix<std::complex<double>>::InnerIterator it(matrix, j); it; ++it)
+      sum += std::abs(it.value());
+    largest = std::max(largest, sum);
+  }
+  return largest;
+}
+
 }  // namespace
 
 bool NearbyEigenvalues::can_take(const Model& model, double memory) {
@@ -89,7 +104,7 @@ bool NearbyEigenvalues::can_take(const Model& model, double memory) {
   // Of a factor: as memory_need.hpp has it for a real one.
   const double factor = 1.7 * 135.0 * std::log2(part) * part / 2.0;
   const double bytes = 16.0 * std::min(most_numbers, size * static_cast<double>(most_vectors)) + factor;
-  return size * static_cast<double>(more_vectors) <= most_numbers &&
+  return size * static_cast<double>(first_vectors) <= most_numbers &&
          bytes <= 0.5 * memory_limit(memory).bytes;
 }
 
@@ -173,13 +188,6 @@ NearbyEigenvalues::NearbyEigenvalues(const Mesh& mesh, const Model& model, const
 
 // (operator - c)^-1 on vectors (v, |c| u_1, |c| u_2, ...).
 class NearbyEigenvalues::Shifted {
-  using ComplexMatrix = Eigen::SparseMatrix<Complex>;
-
-  Complex factor(std::size_t k) const { return 1.0 / (parts_.rates_[k] + c_); }
-  auto part(const ComplexVector& y, std::size_t k) const {
-    return y.segment(parts_.n_ * static_cast<Eigen::Index>(1 + k), parts_.n_);
-  }
-
  public:
   Shifted(const NearbyEigenvalues& parts, Complex c) : parts_(parts), size_(std::abs(c)), c_(c) {
     ComplexMatrix t = c * parts.mass_.cast<Complex>() + parts.dashpots_.cast<Complex>();
@@ -187,21 +195,21 @@ class NearbyEigenvalues::Shifted {
       t += ComplexMatrix(parts.springs_[k].cast<Complex>() * factor(k));
     if (parts.columns_.cols() > 0) t = bordered(t, parts.columns_, 0.0);
     t.makeCompressed();
-    // Without pivots, which hardly ever matters.
+    // Without pivots: far less fill, and hardly ever more rounding.
     ldlt_.compute(t.unaryExpr([](const Complex& z) { return SymmetricScalar(z); }));
-    is_symmetric_ = ldlt_.info() == Eigen::Success;
-    if (is_symmetric_) {
-      const ComplexVector right = ComplexVector::Ones(t.rows());
-      const ComplexVector x = solve(right);
-      is_symmetric_ = (t * x - right).norm() <= 1e-12 * t.norm() * x.norm();
-    }
-    if (!is_symmetric_) {
+    if (ldlt_.info() != Eigen::Success || !(rounding_of(t) <= rounding_without_pivots * largest_sum(t))) {
+      is_symmetric_ = false;
       lu_.isSymmetric(true);
       lu_.compute(t);
+      ok_ = lu_.info() == Eigen::Success;
     }
+    if (ok_) rounding_ = rounding_of(t) + 4.0 * std::numeric_limits<double>::epsilon() * largest_sum(t);
   }
 
-  bool ok() const { return is_symmetric_ || lu_.info() == Eigen::Success; }
+  bool ok() const { return ok_; }
+  // How much of T(c), hence nearly how much of an eigenvalue nearby, is what its sums and the factor have
+  // rounded off.
+  double rounding() const { return rounding_; }
   // Multiplications of the factor, and of one use of it, nearly.
   double factor_work() const { return entries() * entries() / static_cast<double>(parts_.n_); }
   double solve_work() const { return 2.0 * entries(); }
@@ -222,6 +230,20 @@ class NearbyEigenvalues::Shifted {
   }
 
  private:
+  using ComplexMatrix = Eigen::SparseMatrix<Complex>;
+
+  Complex factor(std::size_t k) const { return 1.0 / (parts_.rates_[k] + c_); }
+  Eigen::VectorBlock<const ComplexVector> part(const ComplexVector& y, std::size_t k) const {
+    return y.segment(parts_.n_ * static_cast<Eigen::Index>(1 + k), parts_.n_);
+  }
+
+  // Of a matrix by the factor for one right side.
+  double rounding_of(const ComplexMatrix& t) const {
+    const ComplexVector right = ComplexVector::Ones(t.rows());
+    const ComplexVector x = solve(right);
+    return (t * x - right).norm() / x.norm();
+  }
+
   double entries() const {
     return is_symmetric_ ? static_cast<double>(ldlt_.matrixL().nestedExpression().nonZeros())
                          : static_cast<double>(lu_.nnzL() + lu_.nnzU());
@@ -237,7 +259,8 @@ class NearbyEigenvalues::Shifted {
   const NearbyEigenvalues& parts_;
   double size_;
   Complex c_;
-  bool is_symmetric_ = false;
+  double rounding_ = 0.0;
+  bool ok_ = true, is_symmetric_ = true;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<SymmetricScalar>> ldlt_;
   Eigen::SparseLU<ComplexMatrix, Eigen::AMDOrdering<int>> lu_;
 };
@@ -292,6 +315,8 @@ class NearbyEigenvalues::Arnoldi {
     std::iota(order.begin(), order.end(), 0);
     std::ranges::sort(order, std::ranges::greater(), [&](Eigen::Index i) { return std::abs(values[i]); });
     const double all = 0.999 * std::abs(centre);  // 0 is rigid motion's
+    // What the largest eigenvalue leaves of the digits of the others.
+    const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * std::abs(values[order.front()]);
     for (const Eigen::Index i : order) {
       const double distance = 1.0 / std::abs(values[i]);
       const double residual =
@@ -301,7 +326,10 @@ class NearbyEigenvalues::Arnoldi {
       disc.radius = std::min(std::max(disc.radius, (has_converged ? reach : empty_reach) * distance), all);
       if (!has_converged || distance >= all) break;
       const Complex s = centre + 1.0 / values[i];
-      disc.eigenvalues.push_back({s, 2.0 * residual * distance + 1e-13 * std::abs(s)});
+      // Two that are nearly one are moved by the root of that, as far as they are damped: but for the damping
+      // the operator is normal.
+      const double moved = (2.0 * residual + rounding * distance) * distance + shifted_.rounding();
+      disc.eigenvalues.push_back({s, moved + std::sqrt(moved * std::abs(s.real()))});
     }
     std::erase_if(disc.eigenvalues, [&](const NearbyEigenvalue& each) { return !disc.contains(each.value); });
     return disc;
@@ -320,11 +348,11 @@ class NearbyEigenvalues::Arnoldi {
   Eigen::MatrixXcd basis_, h_;
 };
 
-Disc NearbyEigenvalues::around(Complex centre, Complex wanted, int vectors) {
+Disc NearbyEigenvalues::around(Complex centre, Complex wanted) {
   const Shifted shifted(*this, centre);
   if (!shifted.ok()) return {centre, 0.0, {}};
   Arnoldi arnoldi(shifted);
-  arnoldi.grow(vectors);
+  arnoldi.grow(first_vectors);
   Disc disc = arnoldi.disc(centre);
   while (!disc.contains(wanted) && arnoldi.can_grow()) {
     arnoldi.grow(more_vectors);

@@ -48,9 +48,9 @@ class NearbyEigenvalues {
   // hundred vectors of as many numbers as there are velocities and u_k, and a factor.
   static bool can_take(const Model& model, double memory);
 
-  // By as many vectors at least, a third of which converge, or more until it contains `wanted`, if ever. The
+  // As large as takes the least time for each eigenvalue, or larger until it contains `wanted`, if ever. The
   // centre is neither 0 nor a rate.
-  Disc around(std::complex<double> centre, std::complex<double> wanted, int vectors);
+  Disc around(std::complex<double> centre, std::complex<double> wanted);
 
   // Whether no eigenvalue with |s| <= s0 vibrates. One s = - d + i omega has, with its x and q_k = x^H K_k x,
   //   x^H M x = sum over k of q_k / |s + r_k|^2,  2 d x^H M x = sum of q_k r_k / |s + r_k|^2 + x^H D x

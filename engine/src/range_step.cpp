@@ -24,15 +24,15 @@ constexpr double strip = 1.06;           // from one step to the next
 constexpr int deepest_open = 5;          // halvings of a cell that nothing excludes as a whole
 constexpr int deepest_met = 7;           // of one that witnesses may be in
 constexpr double slowest = 10.0;         // of the places: 2,400 times slower than anything can be fast
-constexpr double slowest_of_all = 24.0;  // of those for discs
+constexpr double slowest_of_all = 45.0;  // of those for discs
 constexpr double beyond = 0.6;           // of the way to the witnesses: where looking excludes most
 // Of discs: halvings of a cell that none contains as a whole; how far the next one's centre is ahead, of the
 // last one's radius, and at most of its frequency.
 constexpr int deepest_unknown = 10;
 constexpr double ahead = 0.65, most_ahead = 0.3, aside = 0.4;
 constexpr int attempts = 4;
-// The first one often tells that the range was right.
-constexpr int few_vectors = 40, many_vectors = 100;
+// Digits of a damping: how near to one another its bounds are, and a centre from which there are no more.
+constexpr double legible = 0.98, close = 0.01;
 constexpr double near = 0.95;         // of the limit: what RangeStep promises
 constexpr double least_share = 1e-9;  // of the cap: steps that are looked for where none is known
 
@@ -116,11 +116,19 @@ class RangeSearch {
       if (attempt == attempts) break;
       last = open;
       const std::complex<double> centre = centre_for(wanted, asked_share * low, attempt, radius);
-      Disc disc = eigenvalues.around(centre, wanted, discs_.empty() ? few_vectors : many_vectors);
+      Disc disc = eigenvalues.around(centre, wanted);
       radius = disc.radius;
       for (const auto& [s, error] : disc.eigenvalues) {
-        low = std::min(low, stable_step_of({std::min(s.real() + error, 0.0), s.imag()}, integrator_));
-        high = std::min(high, stable_step_of({std::min(s.real() - error, 0.0), s.imag()}, integrator_));
+        if (!disc.contains(s)) continue;
+        const double least = stable_step_of({std::min(s.real() + error, 0.0), s.imag()}, integrator_);
+        const double most = stable_step_of({std::min(s.real() - error, 0.0), s.imag()}, integrator_);
+        const double distance = std::abs(s - centre);
+        if (least < low && least < legible * most && distance > close * std::abs(s)) {
+          disc.radius = 0.99 * distance;  // left to a disc that sees more of its digits
+          continue;
+        }
+        low = std::min(low, least);
+        high = std::min(high, most);
       }
       discs_.push_back(std::move(disc));
     }

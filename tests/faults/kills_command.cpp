@@ -1,39 +1,63 @@
 // rheo_kills [--kills N] [--seed N] [--length X] [--folder DIR]: kills rheo run and rheo render N times at
-// random moments over all integrators and kinds of output, and prints what was found. Exit code 1: a fault.
+// random moments over all integrators and kinds of output, and prints what was found. Exit code 1: a fault;
+// 2: an unknown option.
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <string_view>
 
 #include "kills.hpp"
 
-int main(int argc, char** argv) {
-  using namespace fault_tests;
+namespace {
+
+using namespace fault_tests;
+
+struct Wanted {
   int kills = 200;
   std::uint64_t seed = 1;
-  double length = 1.0;
-  fs::path folder = fs::path(RHEO_TEST_OUTPUT) / "kills";
-  for (int i = 1; i + 1 < argc; i += 2) {
-    if (std::strcmp(argv[i], "--kills") == 0) kills = std::atoi(argv[i + 1]);
-    if (std::strcmp(argv[i], "--seed") == 0) seed = std::strtoull(argv[i + 1], nullptr, 10);
-    if (std::strcmp(argv[i], "--length") == 0) length = std::atof(argv[i + 1]);
-    if (std::strcmp(argv[i], "--folder") == 0) folder = argv[i + 1];
+  double length = 1.0;  // of each run, times its usual one
+  fs::path folder;
+};
+
+Wanted wanted(int argc, char** argv) {
+  Wanted w;
+  for (int i = 1; i < argc; i += 2) {
+    const std::string_view key = argv[i];
+    const char* const value = i + 1 < argc ? argv[i + 1] : nullptr;
+    if (key == "--kills" && value != nullptr)
+      w.kills = std::stoi(value);
+    else if (key == "--seed" && value != nullptr)
+      w.seed = std::stoull(value);
+    else if (key == "--length" && value != nullptr)
+      w.length = std::stod(value);
+    else if (key == "--folder" && value != nullptr)
+      w.folder = value;
+    else
+      throw std::invalid_argument(fmt::format("{}: --kills N, --seed N, --length X or --folder DIR", key));
   }
+  // Two at once do not meet where their seeds differ.
+  if (w.folder.empty()) w.folder = fs::path(RHEO_TEST_OUTPUT) / fmt::format("kills_{}", w.seed);
+  return w;
+}
+
+int run(const Wanted& wanted) {
 #ifdef RHEO_HAS_RENDERER
-  const std::vector<RunCase> cases = run_cases(length, true);
+  const std::vector<RunCase> cases = run_cases(wanted.length, true);
 #else
-  const std::vector<RunCase> cases = run_cases(length, false);
+  const std::vector<RunCase> cases = run_cases(wanted.length, false);
 #endif
-  std::mt19937_64 random(seed);
-  int left = kills, all_kills = 0, all_faults = 0;
+  std::mt19937_64 random(wanted.seed);
+  int left = wanted.kills, all_kills = 0, all_faults = 0;
   fmt::print(
       "| run | alone, s | kills | before a checkpoint | simulating | drawing | ends | faults |\n"
       "|---|---|---|---|---|---|---|---|\n");
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const int share = left / static_cast<int>(cases.size() - i);
     left -= share;
-    const fs::path place = folder / std::to_string(i);
+    const fs::path place = wanted.folder / std::to_string(i);
     fs::remove_all(place);
     const KillReport report = kill_and_resume(cases[i], share, random, place);
     fmt::print("| {} | {:.2f} | {} | {} | {} | {} | {} | {} |\n", report.name, report.seconds, report.kills,
@@ -43,6 +67,13 @@ int main(int argc, char** argv) {
     all_kills += report.kills;
     all_faults += static_cast<int>(report.faults.size());
   }
-  fmt::print("{} kills, {} faults (seed {})\n", all_kills, all_faults, seed);
-  return all_faults == 0 && all_kills >= kills ? 0 : 1;
+  fmt::print("{} kills, {} faults (seed {})\n", all_kills, all_faults, wanted.seed);
+  return all_faults == 0 && all_kills >= wanted.kills ? 0 : 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try { return run(wanted(argc, argv)); } catch (const std::exception& e) {
+  std::fprintf(stderr, "rheo_kills: %s\n", e.what());
+  return 2;
 }

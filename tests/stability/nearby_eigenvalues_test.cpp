@@ -11,13 +11,15 @@
 #include <cstdio>
 #include <limits>
 #include <random>
-#include <utility>
+#include <string>
+#include <vector>
 
-#include "range_step.hpp"
 #include "rheo/error.hpp"
 #include "rheo/live.hpp"
 #include "rheo/simulation.hpp"
 #include "stability/random_bodies.hpp"
+#include "stability/runs/by_discs.hpp"
+#include "stability/runs/stress_scene.hpp"
 #include "stability/runs/true_limit.hpp"
 #include "stability/scene_parts.hpp"
 #include "support/sanitized.hpp"
@@ -81,13 +83,12 @@ TEST(NearbyEigenvalues, DiscsHaveAllEigenvaluesAndNoOthers) {
     for (int i = 0; i < 8; ++i) {
       const Complex near = all[static_cast<std::size_t>(unit(random) * static_cast<double>(all.size()))];
       const Complex centre = near + 0.1 * std::abs(near) * Complex(unit(random) - 0.5, unit(random));
-      const Disc disc = eigenvalues.around(centre, centre, i % 2 == 0 ? 12 : 100);
+      const Disc disc = eigenvalues.around(centre, centre);
       std::vector<Complex> inside;
       for (const NearbyEigenvalue& each : disc.eigenvalues) {
         inside.push_back(each.value);
         EXPECT_TRUE(disc.contains(each.value));
-        EXPECT_LE(distance(each.value, known), each.error + 1e-7 * std::abs(each.value) + 1e-14 * largest)
-            << k << ": " << each.value;
+        EXPECT_LE(distance(each.value, known), each.error + 1e-14 * largest) << k << ": " << each.value;
       }
       for (const Complex s : all) {
         if (std::abs(s - centre) >= (1.0 - 1e-9) * disc.radius) continue;
@@ -121,36 +122,45 @@ TEST(NearbyEigenvalues, NothingVibratesWhereThatIsSaid) {
   std::printf("slowest vibration: said over true at the lowest %.3f\n", lowest);
 }
 
-// Over all there is: free and held, with and without ties, both masses, one material or two, with rates over
-// four decades or up to three apart from one another, some of what does not relax at all.
+class Tally {
+ public:
+  void add(const Scene& scene, const std::string& name) {
+    const ByDiscs found = euler_by_discs(scene);
+    if (!found.counts) return;
+    ++tried_;
+    near_ += found.is_near ? 1 : 0;
+    without_a_bound_ += found.safe > 0.0 ? 0 : 1;
+    EXPECT_FALSE(found.is_beyond()) << name << ": " << found.predicted << ", true " << found.truth.high;
+    if (!found.is_near) return;
+    EXPECT_FALSE(found.is_far()) << name << ": " << found.predicted << ", true " << found.truth.high;
+    lowest_ = std::min(lowest_, found.predicted / found.truth.high);
+  }
+
+  int tried() const { return tried_; }
+  int near() const { return near_; }
+  int without_a_bound() const { return without_a_bound_; }
+  void print() const {
+    std::printf("Euler over true: lowest %.3f of %d bodies, told of %d, of them %d without a safe bound\n",
+                lowest_, tried_, near_, without_a_bound_);
+  }
+
+ private:
+  int tried_ = 0, near_ = 0, without_a_bound_ = 0;
+  double lowest_ = 1.0;
+};
+
+// Over all there is: free and held, by elimination or Baumgarte, with and without ties, both masses, one
+// material or two, with rates over four decades or up to three apart from one another, some of what does not
+// relax at all.
 TEST(NearbyEigenvalues, EulersStepIsWithinFivePercent) {
-  double lowest = 1.0;
-  int told = 0, tried = 0, without_a_bound = 0;
-  const auto try_one = [&](Scene& scene, const std::string& name) {
-    scene.time.integrator = IntegratorKind::euler;
-    const Parts parts(scene);
-    const TrueLimit limit = TrueSpectrum(scene).limit(IntegratorKind::euler);
-    if (!limit.determined() || limit.low <= 0.0) return;
-    const double safe = stable_step(parts.spectrum, IntegratorKind::euler);
-    if (std::isinf(safe)) return;
-    ++tried;
-    without_a_bound += safe > 0.0 ? 0 : 1;
-    const DiscSearch discs{.eigenvalues = [&] { return eigenvalues_of(scene, parts); }};
-    const RangeStep found =
-        range_step(parts.model, *parts.solver, parts.spectrum, IntegratorKind::euler, safe, &discs);
-    EXPECT_LE(std::max(found.step, found.near_step), limit.high * (1.0 + 1e-9)) << name;
-    EXPECT_GT(found.near_step, 0.0) << name;
-    if (found.near_step == 0.0) return;
-    ++told;
-    EXPECT_GE(found.near_step, 0.95 * limit.high) << name;
-    lowest = std::min(lowest, found.near_step / limit.high);
-  };
+  Tally tally;
   std::mt19937 random(63);
   for (int k = 0; k < (is_sanitized ? 6 : 60); ++k) {
     Scene scene = random_body(random, k, 3 + k % 2, 3);
     set_mass(scene, k % 2 == 0 ? Mass::lumped : Mass::consistent);
     if (k % 5 == 0) add_ties(scene);
-    try_one(scene, "wide " + std::to_string(k));
+    if (k % 7 == 1) scene.time.constraints = ConstraintMethod::baumgarte;
+    tally.add(scene, "wide " + std::to_string(k));
   }
   for (const double apart : {10.0, 1000.0}) {
     for (const int materials : {1, 2}) {
@@ -158,14 +168,24 @@ TEST(NearbyEigenvalues, EulersStepIsWithinFivePercent) {
         Scene scene = random_body(random, 2 + k % 2, 4 + k % 2, 3);
         set_rates_apart(scene, random, k, apart, materials);
         if (k % 5 == 0) add_ties(scene);
-        try_one(scene, std::to_string(materials) + " within " + std::to_string(apart));
+        tally.add(scene, std::to_string(materials) + " within " + std::to_string(apart));
       }
     }
   }
-  EXPECT_GT(tried, is_sanitized ? 8 : 90);
-  EXPECT_GT(without_a_bound, 0);
-  std::printf("Euler over true: lowest %.3f of %d bodies, told of %d, of them %d without a safe bound\n",
-              lowest, told, tried, without_a_bound);
+  tally.print();
+  EXPECT_EQ(tally.near(), tally.tried());
+  EXPECT_GT(tally.tried(), is_sanitized ? 8 : 90);
+  EXPECT_GT(tally.without_a_bound(), 0);
+}
+
+// Where damping is rounding beside the vibrations, it may not be known; never is it beyond.
+TEST(NearbyEigenvalues, EulersStepOfStressScenesIsNeverBeyondAndMostlyNear) {
+  Tally tally;
+  for (int k = 0; k < (is_sanitized ? 12 : 150); ++k)
+    tally.add(stress_scene(1, k).scene, "stress scene " + std::to_string(k));
+  tally.print();
+  EXPECT_GE(tally.near(), 9 * tally.tried() / 10);
+  EXPECT_GT(tally.tried(), is_sanitized ? 4 : 80);
 }
 
 // As scenes say it, beyond the number of eigenvalues that are all taken.
@@ -173,7 +193,7 @@ TEST(NearbyEigenvalues, EulersStepOfLargerBodiesIsWithinFivePercent) {
   std::mt19937 random(64);
   double lowest = 1.0;
   int told = 0;
-  for (int k = 0; k < (is_sanitized ? 1 : 8); ++k) {
+  for (int k = 0; k < (is_sanitized ? 1 : 6); ++k) {
     Scene scene = random_body(random, k, 9, 6);
     if (k % 3 == 2) set_rates_apart(scene, random, k, 1000.0, 1 + k % 2);
     set_mass(scene, k % 2 == 0 ? Mass::lumped : Mass::consistent);
@@ -191,7 +211,7 @@ TEST(NearbyEigenvalues, EulersStepOfLargerBodiesIsWithinFivePercent) {
     lowest = std::min(lowest, predicted / limit.high);
     ++told;
   }
-  EXPECT_GE(told, is_sanitized ? 0 : 5);
+  EXPECT_GE(told, is_sanitized ? 0 : 4);
   std::printf("Euler over true: lowest %.3f of %d bodies\n", lowest, told);
 }
 

@@ -2,10 +2,13 @@
 // takes.
 //
 //   rheo_euler_limits [--triangles N] [--count K]
+//   rheo_euler_limits --stress N
 //
 // K random bodies, half of them of any material (rates over four decades, one material or two, some that do
 // not relax), half with rates of lambda and mu up to 10, 100 and 1000 apart; free or held, both masses.
 // Without N: 250, 1,000, 4,000 and 10,000 triangles.
+//
+// --stress: the first N scenes of the stress matrix, as if they were too large, against all eigenvalues.
 //
 //   near   known within 5 %; else the limit stays a safe bound
 //   range  what the numerical range alone says, of the known limit
@@ -25,6 +28,8 @@
 
 #include "rheo/simulation.hpp"
 #include "stability/random_bodies.hpp"
+#include "stability/runs/by_discs.hpp"
+#include "stability/runs/stress_scene.hpp"
 
 namespace {
 
@@ -71,16 +76,38 @@ void row(int triangles, int count) {
   std::fflush(stdout);
 }
 
+// Exit code 1 where a step is beyond the truth, or called near and is not.
+int stress(int count) {
+  int tried = 0, near = 0, wrong = 0;
+  double lowest = 1.0;
+  for (int k = 0; k < count; ++k) {
+    const ByDiscs found = euler_by_discs(stress_scene(1, k).scene);
+    if (!found.counts) continue;
+    ++tried;
+    if (found.is_near) {
+      ++near;
+      lowest = std::min(lowest, found.predicted / found.truth.high);
+    }
+    if (!found.is_beyond() && !(found.is_near && found.is_far())) continue;
+    ++wrong;
+    fmt::print("WRONG: scene {}: {:g} s, true {:g} s\n", k, found.predicted, found.truth.high);
+  }
+  fmt::print("{} of {} scenes count; near {}, the lowest {:.4f} of the truth; beyond it or not near: {}\n",
+             tried, count, near, lowest, wrong);
+  return wrong == 0 ? 0 : 1;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
-  int triangles = 0, count = 40;
+  int triangles = 0, count = 40, stress_scenes = 0;
   for (int i = 1; i < argc; i += 2) {
     const std::string_view key = argv[i];
-    if (i + 1 == argc || (key != "--triangles" && key != "--count"))
-      throw std::invalid_argument(fmt::format("{}: --triangles N, --count K", key));
-    (key == "--count" ? count : triangles) = std::stoi(argv[i + 1]);
+    if (i + 1 == argc || (key != "--triangles" && key != "--count" && key != "--stress"))
+      throw std::invalid_argument(fmt::format("{}: --triangles N, --count K or --stress N", key));
+    (key == "--count" ? count : key == "--stress" ? stress_scenes : triangles) = std::stoi(argv[i + 1]);
   }
+  if (stress_scenes > 0) return stress(stress_scenes);
   fmt::print("{:>9} {:>6} {:>6} {:>10} {:>8} {:>11} {:>8}\n", "triangles", "bodies", "near", "median [s]",
              "most [s]", "range: mean", "lowest");
   if (triangles > 0) {
