@@ -1,6 +1,6 @@
 #include "nearby_eigenvalues.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Dense>
 #include <Eigen/SparseLU>
 #include <algorithm>
 #include <cmath>
@@ -12,6 +12,7 @@
 #include "pseudo_random.hpp"
 #include "regions.hpp"
 #include "rheo/memory_limit.hpp"
+#include "rigid_motions.hpp"
 
 namespace rheo {
 namespace {
@@ -25,38 +26,6 @@ constexpr double converged = 1e-6;
 // have further, and of the nearest that has not: one at half its distance would outgrow it with every vector.
 constexpr double reach = 0.9, empty_reach = 0.5;
 constexpr double rounding_without_pivots = 1e-13;  // of the matrix: more asks for pivots
-
-// How many of shifts and small turns hold what is held.
-int rigid_motions(const Mesh& mesh, const ConstraintSolver& solver) {
-  Vec2 middle{}, low = mesh.points[0], high = low;
-  for (const Vec2& p : mesh.points) {
-    middle.x += p.x / static_cast<double>(mesh.points.size());
-    middle.y += p.y / static_cast<double>(mesh.points.size());
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  const double size = std::max(high.x - low.x, high.y - low.y);
-  const auto motion = [&](std::size_t dof) {
-    const Vec2& p = mesh.points[dof / 2];
-    return dof % 2 == 0 ? Eigen::Vector3d(1.0, 0.0, (middle.y - p.y) / size)
-                        : Eigen::Vector3d(0.0, 1.0, (p.x - middle.x) / size);
-  };
-  Eigen::Matrix3d held = Eigen::Matrix3d::Zero();
-  for (std::size_t dof = 0; dof < 2 * mesh.points.size(); ++dof)
-    if (!solver.is_free(dof)) held += motion(dof) * motion(dof).transpose();
-  for (const Column& column : solver.columns()) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    double square = 0.0;
-    for (const auto& [dof, coefficient] : column.entries) {
-      sum += coefficient * motion(static_cast<std::size_t>(dof));
-      square += coefficient * coefficient;
-    }
-    held += sum * sum.transpose() / square;
-  }
-  const Eigen::Vector3d values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(held).eigenvalues();
-  // (One that is only nearly held counts as held: then less is known.)
-  return static_cast<int>((values.array() <= 1e-14 * std::max(1.0, values[2])).count());
-}
 
 // [T, t A; t A^T, -f t], t the largest entry of T.
 template <class Scalar>
@@ -83,11 +52,12 @@ Eigen::SparseMatrix<Scalar> bordered(const Eigen::SparseMatrix<Scalar>& matrix,
 }
 
 // Of a column's entries: a norm of a symmetric matrix.
-double largest_sum(const Eigen::SparseMatrix<std::complex<double>>& matrix) {
+template <class Scalar>
+double largest_sum(const Eigen::SparseMatrix<Scalar>& matrix) {
   double largest = 0.0;
   for (Eigen::Index j = 0; j < matrix.outerSize(); ++j) {
     double sum = 0.0;
-    for (Eigen::SparseMatrix<std::complex<double>>::InnerIterator it(matrix, j); it; ++it)
+    for (typename Eigen::SparseMatrix<Scalar>::InnerIterator it(matrix, j); it; ++it)
       sum += std::abs(it.value());
     largest = std::max(largest, sum);
   }
@@ -186,13 +156,13 @@ NearbyEigenvalues::NearbyEigenvalues(const Mesh& mesh, const Model& model, const
   columns_.setFromTriplets(columns.begin(), columns.end());
 }
 
-// (operator - c)^-1 on vectors (v, |c| u_1, |c| u_2, ...).
+// (operator - c)^-1 on vectors (v, |c| u_1, |c| u_2, ...), a column a part.
 class NearbyEigenvalues::Shifted {
  public:
   Shifted(const NearbyEigenvalues& parts, Complex c) : parts_(parts), size_(std::abs(c)), c_(c) {
     ComplexMatrix t = c * parts.mass_.cast<Complex>() + parts.dashpots_.cast<Complex>();
-    for (std::size_t k = 0; k < parts.springs_.size(); ++k)
-      t += ComplexMatrix(parts.springs_[k].cast<Complex>() * factor(k));
+    for (Eigen::Index k = 1; k < part_count(); ++k)
+      t += ComplexMatrix(parts.springs_[static_cast<std::size_t>(k - 1)].cast<Complex>() * factor(k));
     if (parts.columns_.cols() > 0) t = bordered(t, parts.columns_, 0.0);
     t.makeCompressed();
     // Without pivots: far less fill, and hardly ever more rounding.
@@ -213,29 +183,23 @@ class NearbyEigenvalues::Shifted {
   // Multiplications of the factor, and of one use of it, nearly.
   double factor_work() const { return entries() * entries() / static_cast<double>(parts_.n_); }
   double solve_work() const { return 2.0 * entries(); }
-  Eigen::Index size() const { return parts_.n_ * static_cast<Eigen::Index>(1 + parts_.springs_.size()); }
+  Eigen::Index free() const { return parts_.n_; }
+  Eigen::Index part_count() const { return static_cast<Eigen::Index>(1 + parts_.springs_.size()); }
 
-  ComplexVector operator()(const ComplexVector& y) const {
+  // Of the result, v; and part k > 0 of it is factor(k) (v - y.col(k) / |c|) |c|.
+  ComplexVector velocity(const Eigen::MatrixXcd& y) const {
     const Eigen::Index n = parts_.n_;
     ComplexVector right = ComplexVector::Zero(n + parts_.columns_.cols());
-    right.head(n) = -(parts_.mass_ * y.head(n));
-    for (std::size_t k = 0; k < parts_.springs_.size(); ++k)
-      right.head(n) += factor(k) / size_ * (parts_.springs_[k] * part(y, k));
-    ComplexVector result(size());
-    result.head(n) = solve(right).head(n);
-    for (std::size_t k = 0; k < parts_.springs_.size(); ++k)
-      result.segment(n * static_cast<Eigen::Index>(1 + k), n) =
-          factor(k) * (size_ * result.head(n) - part(y, k));
-    return result;
+    right.head(n) = -(parts_.mass_ * y.col(0));
+    for (Eigen::Index k = 1; k < part_count(); ++k)
+      right.head(n) += factor(k) / size_ * (parts_.springs_[static_cast<std::size_t>(k - 1)] * y.col(k));
+    return solve(right).head(n);
   }
+  double scale() const { return size_; }
+  Complex factor(Eigen::Index k) const { return 1.0 / (parts_.rates_[static_cast<std::size_t>(k - 1)] + c_); }
 
  private:
   using ComplexMatrix = Eigen::SparseMatrix<Complex>;
-
-  Complex factor(std::size_t k) const { return 1.0 / (parts_.rates_[k] + c_); }
-  Eigen::VectorBlock<const ComplexVector> part(const ComplexVector& y, std::size_t k) const {
-    return y.segment(parts_.n_ * static_cast<Eigen::Index>(1 + k), parts_.n_);
-  }
 
   // Of a matrix by the factor for one right side.
   double rounding_of(const ComplexMatrix& t) const {
@@ -265,43 +229,53 @@ class NearbyEigenvalues::Shifted {
   Eigen::SparseLU<ComplexMatrix, Eigen::AMDOrdering<int>> lu_;
 };
 
-// Grows step by step; columns of `basis` are orthonormal.
+// Grows step by step. Part k of vector j is U G_k e_j: all parts are combinations of the velocities so far,
+// so that these few vectors, kept orthonormal, and small matrices stand for all (two-level orthogonal
+// Arnoldi).
 class NearbyEigenvalues::Arnoldi {
  public:
   explicit Arnoldi(const Shifted& shifted)
       : shifted_(shifted),
-        most_(std::min({most_vectors, shifted.size(),
-                        static_cast<Eigen::Index>(most_numbers / static_cast<double>(shifted.size()))})) {
-    ComplexVector x(shifted.size());
+        most_(std::min({most_vectors, shifted.part_count() * shifted.free(),
+                        static_cast<Eigen::Index>(most_numbers / static_cast<double>(shifted.free()))})),
+        stride_(most_ + first_directions),
+        g_(Eigen::MatrixXcd::Zero(shifted.part_count() * stride_, most_ + 1)),
+        h_(Eigen::MatrixXcd::Zero(most_ + 1, most_)) {
+    // Of one random direction in all parts, differently.
     std::uint64_t seed = 1;
+    ComplexVector x(shifted.free());
     for (Complex& each : x) each = nearly_normal(seed);
-    basis_ = shifted_(x).normalized();  // what the constraints leave
+    Eigen::VectorXcd shares(shifted.part_count());
+    for (Complex& each : shares) each = nearly_normal(seed);
+    u_.resize(shifted.free(), first_vectors);
+    directions_ = 0;
+    add_direction(x);
+    Eigen::MatrixXcd start = Eigen::MatrixXcd::Zero(stride_, shifted.part_count());
+    start.row(0) = shares.transpose();
+    const Eigen::VectorXcd applied = apply(start);
+    g_.col(0) = applied.normalized();
   }
 
   bool can_grow() const { return steps_ < most_ && !is_whole_; }
 
   void grow(Eigen::Index steps) {
     const Eigen::Index last = std::min(steps_ + steps, most_);
-    basis_.conservativeResize(shifted_.size(), last + 1);
-    h_.conservativeResizeLike(Eigen::MatrixXcd::Zero(last + 1, last));
     while (steps_ < last && !is_whole_) {
-      ComplexVector x = shifted_(basis_.col(steps_));
+      const Eigen::Map<const Eigen::MatrixXcd> now(g_.col(steps_).data(), stride_, shifted_.part_count());
+      Eigen::VectorXcd x = apply(now);
       const double whole = x.norm();
-      const auto known = basis_.leftCols(steps_ + 1);
-      double before = whole, left = 0.0;
-      // Twice is enough, and where little was taken off, once.
-      for (int times = 0; times < 2 && left < 0.7 * before; ++times) {
-        if (times > 0) before = left;
-        const ComplexVector along = known.adjoint() * x;
+      const auto known = g_.leftCols(steps_ + 1);
+      for (int times = 0; times < 2; ++times) {
+        const Eigen::VectorXcd along = known.adjoint() * x;
         x -= known * along;
         h_.col(steps_).head(steps_ + 1) += along;
-        left = x.norm();
       }
+      const double left = x.norm();
       ++steps_;
       is_whole_ = !(left > 1e-13 * whole);
       if (is_whole_) break;
       h_(steps_, steps_ - 1) = left;
-      basis_.col(steps_) = x / left;
+      g_.col(steps_) = x / left;
     }
   }
 
@@ -314,7 +288,7 @@ class NearbyEigenvalues::Arnoldi {
     std::vector<Eigen::Index> order(static_cast<std::size_t>(steps_));
     std::iota(order.begin(), order.end(), 0);
     std::ranges::sort(order, std::ranges::greater(), [&](Eigen::Index i) { return std::abs(values[i]); });
-    const double all = 0.999 * std::abs(centre);  // 0 is rigid motion's
+    const double most = 0.999 * std::abs(centre);  // 0 is rigid motion's
     // What the largest eigenvalue leaves of the digits of the others.
     const double rounding = 8.0 * std::numeric_limits<double>::epsilon() * std::abs(values[order.front()]);
     for (const Eigen::Index i : order) {
@@ -323,8 +297,8 @@ class NearbyEigenvalues::Arnoldi {
           is_whole_ ? 0.0
                     : std::abs(h_(steps_, steps_ - 1) * solved.eigenvectors()(steps_ - 1, i)) * distance;
       const bool has_converged = residual <= converged;
-      disc.radius = std::min(std::max(disc.radius, (has_converged ? reach : empty_reach) * distance), all);
-      if (!has_converged || distance >= all) break;
+      disc.radius = std::min(std::max(disc.radius, (has_converged ? reach : empty_reach) * distance), most);
+      if (!has_converged || distance >= most) break;
       const Complex s = centre + 1.0 / values[i];
       // Two that are nearly one are moved by the root of that, as far as they are damped: but for the damping
       // the operator is normal.
@@ -337,15 +311,50 @@ class NearbyEigenvalues::Arnoldi {
 
   double work() const {
     const auto steps = static_cast<double>(steps_);
-    const double orthogonal = 4.0 * steps * static_cast<double>(shifted_.size());
+    const double parts = static_cast<double>(shifted_.part_count());
+    const double orthogonal = (4.0 + parts) * steps * static_cast<double>(shifted_.free());
     return shifted_.factor_work() + steps * (shifted_.solve_work() + orthogonal);
   }
 
  private:
+  // x = U a + what is left, which becomes one more column of U; returns a with that one's share.
+  Eigen::VectorXcd add_direction(ComplexVector& x) {
+    Eigen::VectorXcd along = Eigen::VectorXcd::Zero(stride_);
+    const double whole = x.norm();
+    double before = whole, left = directions_ > 0 ? 0.0 : whole;
+    const auto known = u_.leftCols(directions_);
+    // Twice is enough, and where little was taken off, once.
+    for (int times = 0; times < 2 && left < 0.7 * before; ++times) {
+      if (times > 0) before = left;
+      const Eigen::VectorXcd share = known.adjoint() * x;
+      x -= known * share;
+      along.head(directions_) += share;
+      left = x.norm();
+    }
+    if (!(left > 1e-14 * whole)) return along;
+    if (directions_ == u_.cols()) u_.conservativeResize(Eigen::NoChange, std::min(2 * directions_, stride_));
+    u_.col(directions_) = x / left;
+    along[directions_++] = left;
+    return along;
+  }
+
+  // By coefficients, a column a part; the result's one below another.
+  template <class Parts>
+  Eigen::VectorXcd apply(const Parts& g) {
+    ComplexVector v = shifted_.velocity(u_.leftCols(directions_) * g.topRows(directions_));
+    Eigen::MatrixXcd result(stride_, shifted_.part_count());
+    result.col(0) = add_direction(v);
+    for (Eigen::Index k = 1; k < shifted_.part_count(); ++k)
+      result.col(k) = shifted_.factor(k) * (shifted_.scale() * result.col(0) - g.col(k));
+    return result.reshaped();
+  }
+
+  static constexpr Eigen::Index first_directions = 2;
+
   const Shifted& shifted_;
-  Eigen::Index most_, steps_ = 0;
+  Eigen::Index most_, stride_, steps_ = 0, directions_ = 0;
   bool is_whole_ = false;
-  Eigen::MatrixXcd basis_, h_;
+  Eigen::MatrixXcd u_, g_, h_;
 };
 
 Disc NearbyEigenvalues::around(Complex centre, Complex wanted) {
@@ -368,10 +377,15 @@ bool NearbyEigenvalues::nothing_vibrates_below(double s0) const {
     sum += springs_[k] * ((1.0 + rates_[k] / (2.0 * s0)) / std::pow(s0 + rates_[k], 2));
   // As many more are negative as there are columns a, beside those of the sum + f a a^T: whatever f, what is
   // positive on all motions is so on those that the constraints leave.
-  if (columns_.cols() > 0) sum = bordered(sum, columns_, 1e-4);
+  constexpr double held = 1e-4;
+  if (columns_.cols() > 0) sum = bordered(sum, columns_, held);
+  // Signs that the factor's rounding may have turned tell nothing. (M has no eigenvalue below a fourth.)
+  constexpr double seen = 0.1;
+  const double rounding = std::numeric_limits<double>::epsilon() / (columns_.cols() > 0 ? held : 1.0);
+  if (rigid_ < 0 || !(4.0 * rounding * largest_sum(sum) <= seen)) return false;
   const Eigen::SimplicialLDLT<Matrix> factor(sum);
   return factor.info() == Eigen::Success &&
-         (factor.vectorD().array() < 0.0).count() <= rigid_ + columns_.cols();
+         (factor.vectorD().array() < 0.0).count() == rigid_ + columns_.cols();
 }
 
 }  // namespace rheo

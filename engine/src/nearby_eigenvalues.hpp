@@ -70,7 +70,7 @@ class NearbyEigenvalues {
   class Arnoldi;
 
   Eigen::Index n_ = 0;  // free degrees of freedom
-  int rigid_ = 0;       // motions that the constraints leave
+  int rigid_ = 0;       // motions of the mesh's pieces that the constraints leave; -1: not known
   Matrix mass_, dashpots_, columns_;
   std::vector<Matrix> springs_;
   std::vector<double> rates_;

@@ -33,7 +33,7 @@ constexpr double ahead = 0.65, most_ahead = 0.3, aside = 0.4;
 constexpr int attempts = 4;
 // Digits of a damping: how near to one another its bounds are, and a centre from which there are no more.
 constexpr double legible = 0.98, close = 0.01;
-constexpr double near = 0.95;         // of the limit: what RangeStep promises
+constexpr double promised = 0.95;     // of the limit: what RangeStep promises
 constexpr double least_share = 1e-9;  // of the cap: steps that are looked for where none is known
 
 class RangeSearch {
@@ -49,7 +49,8 @@ class RangeSearch {
     for (const Relaxation& each : spectrum.relaxations) rate = std::max(rate, each.rate);
     largest_ = spectrum.omega_max + spectrum.largest_rate();
     cap_ = 100.0 / std::max(spectrum.omega_max, spectrum.viscous_max);
-    if (rate > 0.0) cap_ = std::min(cap_, 0.999 * stable_step_of(-rate, integrator));
+    for (const double pole : {rate, spectrum.baumgarte})
+      if (pole > 0.0) cap_ = std::min(cap_, 0.999 * stable_step_of(-pole, integrator));
     if (integrator == IntegratorKind::rk4) {
       for (int i = 0; i <= 90; ++i) places_.push_back(i / 90.0);
     } else {
@@ -108,7 +109,7 @@ class RangeSearch {
       if (search.told && !discs_.empty()) search.told(eigenvalues.work() / search.most_work);
       const std::complex<double> open = first_unknown(asked_share * low, is_done);
       if (open == 0.0) {
-        known = std::max(known, asked_share * low);
+        known = std::max(known, bent * asked_share * low);
         break;
       }
       const std::complex<double> wanted = 1.0 / std::conj(open);
@@ -120,8 +121,9 @@ class RangeSearch {
       radius = disc.radius;
       for (const auto& [s, error] : disc.eigenvalues) {
         if (!disc.contains(s)) continue;
-        const double least = stable_step_of({std::min(s.real() + error, 0.0), s.imag()}, integrator_);
-        const double most = stable_step_of({std::min(s.real() - error, 0.0), s.imag()}, integrator_);
+        const double more = stable_step_of({std::min(s.real() - error, 0.0), s.imag()}, integrator_);
+        const double less = stable_step_of({std::min(s.real() + error, 0.0), s.imag()}, integrator_);
+        const double least = std::min(less, more), most = std::max(less, more);
         const double distance = std::abs(s - centre);
         if (least < low && least < legible * most && distance > close * std::abs(s)) {
           disc.radius = 0.99 * distance;  // left to a disc that sees more of its digits
@@ -132,7 +134,7 @@ class RangeSearch {
       }
       discs_.push_back(std::move(disc));
     }
-    return known >= near * high ? known : 0.0;
+    return high > 0.0 && known >= promised * high ? known : 0.0;
   }
 
  private:
@@ -169,6 +171,10 @@ class RangeSearch {
   // What is slower than all places is excluded by its signs, or not at all.
   void hold_slow_ones() {
     double low = surely_ > 0.0 ? 0.9 * surely_ : least_share * cap_, high = cap_;
+    if (surely_ == 0.0 && !range_.excludes_slower(at(slowest, low))) {
+      cap_ = 0.0;
+      return;
+    }
     while (high - low > 0.01 * low) {
       const double middle = std::sqrt(low * high);
       (range_.excludes_slower(at(slowest, middle)) ? low : high) = middle;
