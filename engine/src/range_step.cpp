@@ -162,7 +162,7 @@ class RangeSearch {
   void add_strips(double from) {
     if (from == 0.0) {
       strips_.push_back({0.0, std::vector<char>(places_.size(), 1)});
-      return;
+      from = 1.0 / largest_;
     }
     const double ratio = std::max(strip, std::pow(cap_ / from, 1.0 / most_strips));
     for (double h = from; h < cap_; h *= ratio) strips_.push_back({h, std::vector<char>(places_.size(), 1)});
