@@ -19,7 +19,7 @@ namespace {
 
 // Of a basis: about a third of its vectors make eigenvalues, and it takes their square of time.
 constexpr Eigen::Index first_vectors = 45, more_vectors = 40, most_vectors = 300;
-constexpr double most_numbers = 3.2e7;  // of a basis: 500 MB
+constexpr double most_numbers = 1.2e7;  // of a basis: 200 MB
 // Residual of (operator - c)^-1, of its eigenvalue.
 constexpr double converged = 1e-6;
 // How far a disc reaches, of the distance of the outermost eigenvalue that has converged, as all nearer ones
@@ -67,12 +67,9 @@ double largest_sum(const Eigen::SparseMatrix<Scalar>& matrix) {
 }  // namespace
 
 bool NearbyEigenvalues::can_take(const Model& model, double memory) {
-  std::vector<Material> materials;
-  for (const Patch& patch : model.patches) materials.push_back(patch.material);
-  const auto part = static_cast<double>(model.layout.part);
-  const double size = part * static_cast<double>(1 + relaxations_of(materials).size());
+  const auto size = static_cast<double>(model.layout.part);
   // Of a factor: as memory_need.hpp has it for a real one.
-  const double factor = 1.7 * 135.0 * std::log2(part) * part / 2.0;
+  const double factor = 1.7 * 135.0 * std::log2(size) * size / 2.0;
   const double bytes = 16.0 * std::min(most_numbers, size * static_cast<double>(most_vectors)) + factor;
   return size * static_cast<double>(first_vectors) <= most_numbers &&
          bytes <= 0.5 * memory_limit(memory).bytes;

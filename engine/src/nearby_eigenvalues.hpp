@@ -13,7 +13,8 @@
 // iteration from one start, one that the start does not have at all would be missed; of several that are the
 // same one counts.)
 //
-// Source   Saad, Numerical Methods for Large Eigenvalue Problems, 2nd ed., 2011, ch. 6 and 8
+// Source   Saad, Numerical Methods for Large Eigenvalue Problems, 2nd ed., 2011, ch. 6 and 8; Lu, Su and Bai,
+//          SIAM J. Matrix Anal. Appl. 37 (2016) (two levels: all u_k are combinations of the velocities)
 // Units    eigenvalues [1/s]
 // Errors   none: a disc of radius 0 where the factor fails
 #pragma once
@@ -29,7 +30,7 @@ namespace rheo {
 
 struct NearbyEigenvalue {
   std::complex<double> value;
-  double error = 0.0;  // by its residual
+  double error = 0.0;  // at most, by its residual and rounding
 };
 
 struct Disc {
@@ -44,8 +45,8 @@ class NearbyEigenvalues {
  public:
   // Of a model with its matrices. All are used here only.
   NearbyEigenvalues(const Mesh& mesh, const Model& model, const ConstraintSolver& solver);
-  // Whether that is not too large for this memory (0: what this machine has available): a disc takes a
-  // hundred vectors of as many numbers as there are velocities and u_k, and a factor.
+  // Whether that is not too large, nor for this memory (0: what this machine has available): a disc takes
+  // some hundred vectors of velocities and a factor.
   static bool can_take(const Model& model, double memory);
 
   // As large as takes the least time for each eigenvalue, or larger until it contains `wanted`, if ever. The
